@@ -1,0 +1,19 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace udar {
+
+/// The candidate most like `word` (optimal string alignment distance, at most a third of its length), or "".
+std::string nearest_word(std::string_view word, std::span<const std::string> candidates);
+
+/// "a, b or c".
+std::string one_of(std::span<const std::string> words);
+
+/// Shortest decimal that reads back as the same double: "0.0025", "6.4e-08".
+std::string shortest(double value);
+
+}  // namespace udar

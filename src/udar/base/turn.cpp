@@ -1,0 +1,44 @@
+#include "udar/base/vec2.hpp"
+
+namespace udar {
+namespace {
+
+// pi/2 in three parts; the first two have 33 significant bits, so k * part is exact for k < 2^20 (Cody and Waite 1980).
+constexpr double half_pi_1 = 0x1.921fb544p+0;
+constexpr double half_pi_2 = 0x1.0b4611a6p-34;
+constexpr double half_pi_3 = 0x1.3198a2e037073p-69;
+constexpr double two_over_pi = 0x1.45f306dc9c883p-1;
+
+// Taylor's series on |r| <= pi/4: the first omitted term is below 1e-18.
+double sin_series(double r) {
+  double sum = 0;
+  for (int k = 17; k >= 3; k -= 2) sum = (1 + sum) * (-r * r / (k * (k - 1)));
+  return r + r * sum;
+}
+
+double cos_series(double r) {
+  double sum = 0;
+  for (int k = 18; k >= 2; k -= 2) sum = (1 + sum) * (-r * r / (k * (k - 1)));
+  return 1 + sum;
+}
+
+}  // namespace
+
+Turn turn_by(double angle) {
+  const double quadrant = std::floor(angle * two_over_pi + 0.5);
+  const double r = ((angle - quadrant * half_pi_1) - quadrant * half_pi_2) - quadrant * half_pi_3;
+  const double s = sin_series(r);
+  const double c = cos_series(r);
+  switch (static_cast<long long>(quadrant) & 3) {
+    case 0:
+      return {c, s};
+    case 1:
+      return {-s, c};
+    case 2:
+      return {-c, -s};
+    default:
+      return {s, -c};
+  }
+}
+
+}  // namespace udar
