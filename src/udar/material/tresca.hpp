@@ -1,0 +1,76 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "udar/material/elasticity.hpp"
+#include "udar/units/parameter.hpp"
+
+namespace udar {
+
+/// Elastic, perfectly plastic by the largest shear stress: no two of the three principal stresses may differ by more
+/// than the tensile yield stress (Tresca 1864; Shtein and Zylev 2025, conditions (1)-(3)). The out-of-plane stress takes
+/// part. Mean stress is never changed by flow.
+struct Tresca {
+  static constexpr const char* keyword = "tresca";
+  static constexpr const char* doc = "elastic, then perfectly plastic by the largest shear stress";
+
+  double young_modulus = 0;  ///< Pa
+  double poisson_ratio = 0;
+  double yield_stress = 0;  ///< Pa, in tension; the largest shear stress is half of it
+
+  static std::vector<Parameter<Tresca>> parameters() {
+    auto all = elastic_parameters<Tresca>();
+    all.push_back({"yield_stress", &Tresca::yield_stress, dimension::stress, limits::positive,
+                   "tensile yield stress: the largest difference of two principal stresses"});
+    return all;
+  }
+
+  [[nodiscard]] Elasticity elasticity() const { return elasticity_of(young_modulus, poisson_ratio); }
+
+  /// Returns the trial stress to the yield surface along its normal. All principal stresses end between two bounds
+  /// yield_stress apart: those of the face crossed by the largest difference or, where the middle one would then lie
+  /// outside, those of the edge where it equals one of the others. Written without branches so that it vectorises.
+  template <class Real>
+  Corrected<Real> correct(const SymTensor<Real>& trial) const {
+    using std::max;
+    using std::min;
+    using std::sqrt;
+    const Real y(yield_stress);
+    const Real third(1.0 / 3.0);
+    const Real centre = Real(0.5) * (trial.xx + trial.yy);
+    const Real half_difference = Real(0.5) * (trial.xx - trial.yy);
+    const Real radius = sqrt(half_difference * half_difference + trial.xy * trial.xy);
+    const Real p1 = centre + radius;
+    const Real p2 = centre - radius;
+    const Real p3 = trial.zz;
+    const Real largest = max(p1, p3);
+    const Real smallest = min(p2, p3);
+    const Real middle = max(p2, min(p1, p3));
+    const Real sum = p1 + p2 + p3;
+
+    const Real face = Real(0.5) * (largest + smallest - y);     // lower bound when a face is crossed
+    const Real upper_edge = third * (sum + y) - y;              // largest and middle equal
+    const Real lower_edge = third * (sum - y);                  // middle and smallest equal
+    const Real edge_or_face = middle > face + y ? upper_edge : (middle < face ? lower_edge : face);
+    const bool flows = largest - smallest > y;
+    const Real low = flows ? edge_or_face : smallest;
+    const Real high = flows ? edge_or_face + y : largest;
+
+    const Real q1 = min(max(p1, low), high);
+    const Real q2 = min(max(p2, low), high);
+    const Real q3 = min(max(p3, low), high);
+    const Real shrink = radius > Real(0) ? Real(0.5) * (q1 - q2) / radius : Real(0);
+    const Real new_centre = flows ? Real(0.5) * (q1 + q2) : centre;
+    const Real new_shrink = flows ? shrink : Real(1);
+    const Real work = (q1 * (p1 - q1) + q2 * (p2 - q2) + q3 * (p3 - q3)) / Real(2 * elasticity().shear_modulus);
+    return {{new_centre + new_shrink * half_difference, new_centre - new_shrink * half_difference,
+             new_shrink * trial.xy, q3},
+            flows ? work : Real(0)};
+  }
+  /// Equivalent plastic strain that goes with plastic work per volume (work-conjugate: work / yield stress), m3/J.
+  [[nodiscard]] double plastic_strain_of_work() const { return 1 / yield_stress; }
+};
+
+}  // namespace udar
