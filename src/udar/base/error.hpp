@@ -23,14 +23,14 @@ enum class ExitCode : int {
 
 /// One mistake of the user, told with its place, reason and cure.
 struct Diagnostic {
-  std::string file;       ///< as the user gave it; empty where there is none
-  int line = 0;           ///< from 1; 0: no place in a file
-  int column = 0;         ///< from 1, in characters
-  int length = 1;         ///< characters to underline
-  std::string source;     ///< the text of that line
-  std::string message;    ///< "unknown key `yeild`"
-  std::string pointer;    ///< beside the caret: "this is a length; a velocity is needed"
-  std::string cure;       ///< "did you mean `yield_stress`?"
+  std::string file;     ///< as the user gave it; empty where there is none
+  int line = 0;         ///< from 1; 0: no place in a file
+  int column = 0;       ///< from 1, in characters
+  int length = 1;       ///< characters to underline
+  std::string source;   ///< the text of that line
+  std::string message;  ///< "unknown key `yeild`"
+  std::string pointer;  ///< beside the caret: "this is a length; a velocity is needed"
+  std::string cure;     ///< "did you mean `yield_stress`?"
 };
 
 /// The diagnostic as the user reads it: message, place, line, caret, cure.

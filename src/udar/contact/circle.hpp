@@ -2,10 +2,27 @@
 
 #include <vector>
 
+#include "udar/base/box.hpp"
 #include "udar/contact/gap.hpp"
 #include "udar/units/parameter.hpp"
 
 namespace udar {
+
+/// A circle ready for many questions.
+struct PreparedCircle {
+  Vec2 centre{};      ///< m
+  double radius = 0;  ///< m
+
+  [[nodiscard]] Gap gap(Vec2 p) const {
+    const Vec2 from_centre = p - centre;
+    const double r = length(from_centre);
+    // In the very centre every direction is as good; one must be taken.
+    return {r - radius, r > 0 ? (1 / r) * from_centre : Vec2{0, 1}, 0};
+  }
+  /// A closed polygon of 96 sides.
+  [[nodiscard]] std::vector<Polyline> outline(const Box& view) const;
+  [[nodiscard]] Box bounds() const { return {centre - Vec2{radius, radius}, centre + Vec2{radius, radius}}; }
+};
 
 /// A round obstacle.
 struct Circle {
@@ -19,6 +36,8 @@ struct Circle {
     return {{"centre", &Circle::centre, dimension::length, {}, "centre"},
             {"radius", &Circle::radius, dimension::length, limits::positive, "radius"}};
   }
+  /// Throws UserError(bad_case) where the radius is not above 0.
+  [[nodiscard]] PreparedCircle prepared() const;
 };
 
 }  // namespace udar

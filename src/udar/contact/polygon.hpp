@@ -2,10 +2,25 @@
 
 #include <vector>
 
+#include "udar/base/box.hpp"
 #include "udar/contact/gap.hpp"
 #include "udar/units/parameter.hpp"
 
 namespace udar {
+
+/// A convex polygon ready for many questions. Face i runs from corner i to the next one.
+struct PreparedPolygon {
+  std::vector<Vec2> points;   ///< m, counter-clockwise
+  std::vector<Vec2> normals;  ///< unit vectors out of the obstacle, one for each face
+
+  /// The corner that ends face i, m.
+  [[nodiscard]] Vec2 after(std::size_t i) const { return points[i + 1 < points.size() ? i + 1 : 0]; }
+  /// Inside, the nearest point of the boundary lies on a face; outside, it may be a corner, and the normal points away
+  /// from it. Of two faces equally near, the lower one counts.
+  [[nodiscard]] Gap gap(Vec2 p) const;
+  [[nodiscard]] std::vector<Polyline> outline(const Box& view) const;
+  [[nodiscard]] Box bounds() const { return bounding_box(points); }
+};
 
 /// A convex polygon. Its corners may run either way round.
 struct Polygon {
@@ -17,6 +32,8 @@ struct Polygon {
   static std::vector<Parameter<Polygon>> parameters() {
     return {{"points", &Polygon::points, dimension::length, {}, "corners, in order"}};
   }
+  /// Throws UserError(bad_case) where there are less than three corners, two in one place, a hollow, or no area.
+  [[nodiscard]] PreparedPolygon prepared() const;
 };
 
 /// A rectangle with sides along the axes.
@@ -31,6 +48,8 @@ struct Rectangle {
     return {{"at", &Rectangle::at, dimension::length, {}, "lower left corner"},
             {"size", &Rectangle::size, dimension::length, limits::positive, "width and height"}};
   }
+  /// Faces bottom, right, top, left. Throws UserError(bad_case) where a size is not above 0.
+  [[nodiscard]] PreparedPolygon prepared() const;
 };
 
 }  // namespace udar

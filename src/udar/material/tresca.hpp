@@ -1,9 +1,9 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "udar/base/lanes.hpp"
 #include "udar/material/elasticity.hpp"
 #include "udar/units/parameter.hpp"
 
@@ -34,8 +34,6 @@ struct Tresca {
   /// outside, those of the edge where it equals one of the others. Written without branches so that it vectorises.
   template <class Real>
   Corrected<Real> correct(const SymTensor<Real>& trial) const {
-    using std::max;
-    using std::min;
     using std::sqrt;
     const Real y(yield_stress);
     const Real third(1.0 / 3.0);
@@ -45,29 +43,31 @@ struct Tresca {
     const Real p1 = centre + radius;
     const Real p2 = centre - radius;
     const Real p3 = trial.zz;
-    const Real largest = max(p1, p3);
-    const Real smallest = min(p2, p3);
-    const Real middle = max(p2, min(p1, p3));
+    const Real largest = larger(p1, p3);
+    const Real smallest = smaller(p2, p3);
+    const Real middle = larger(p2, smaller(p1, p3));
     const Real sum = p1 + p2 + p3;
 
     const Real face = Real(0.5) * (largest + smallest - y);     // lower bound when a face is crossed
     const Real upper_edge = third * (sum + y) - y;              // largest and middle equal
     const Real lower_edge = third * (sum - y);                  // middle and smallest equal
-    const Real edge_or_face = middle > face + y ? upper_edge : (middle < face ? lower_edge : face);
-    const bool flows = largest - smallest > y;
-    const Real low = flows ? edge_or_face : smallest;
-    const Real high = flows ? edge_or_face + y : largest;
+    const Real bound = select(middle > face + y, upper_edge, select(middle < face, lower_edge, face));
+    const auto flows = largest - smallest > y;
+    const Real low = select(flows, bound, smallest);
+    const Real high = select(flows, bound + y, largest);
 
-    const Real q1 = min(max(p1, low), high);
-    const Real q2 = min(max(p2, low), high);
-    const Real q3 = min(max(p3, low), high);
-    const Real shrink = radius > Real(0) ? Real(0.5) * (q1 - q2) / radius : Real(0);
-    const Real new_centre = flows ? Real(0.5) * (q1 + q2) : centre;
-    const Real new_shrink = flows ? shrink : Real(1);
-    const Real work = (q1 * (p1 - q1) + q2 * (p2 - q2) + q3 * (p3 - q3)) / Real(2 * elasticity().shear_modulus);
-    return {{new_centre + new_shrink * half_difference, new_centre - new_shrink * half_difference,
-             new_shrink * trial.xy, q3},
-            flows ? work : Real(0)};
+    const Real q1 = smaller(larger(p1, low), high);
+    const Real q2 = smaller(larger(p2, low), high);
+    const Real q3 = smaller(larger(p3, low), high);
+    const Real safe_radius = select(radius > Real(0), radius, Real(1));
+    const Real shrink = Real(0.5) * (q1 - q2) / safe_radius;
+    const Real new_centre = Real(0.5) * (q1 + q2);
+    const Real work = (q1 * (p1 - q1) + q2 * (p2 - q2) + q3 * (p3 - q3)) * Real(0.5 / elasticity().shear_modulus);
+    // Where nothing flows the trial stress comes out bit for bit, not its principal values turned back.
+    return {{select(flows, new_centre + shrink * half_difference, trial.xx),
+             select(flows, new_centre - shrink * half_difference, trial.yy), select(flows, shrink * trial.xy, trial.xy),
+             select(flows, q3, trial.zz)},
+            select(flows, work, Real(0))};
   }
   /// Equivalent plastic strain that goes with plastic work per volume (work-conjugate: work / yield stress), m3/J.
   [[nodiscard]] double plastic_strain_of_work() const { return 1 / yield_stress; }

@@ -1,0 +1,154 @@
+#include "udar/case/build_model.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "udar/base/error.hpp"
+#include "udar/case/build_parts.hpp"
+#include "udar/mesh/boundary.hpp"
+#include "udar/mesh/renumber.hpp"
+
+namespace udar {
+namespace {
+
+const MaterialCase& material_of(const Case& input, const BodyCase& body) {
+  const auto found = std::find_if(input.materials.begin(), input.materials.end(),
+                                  [&](const MaterialCase& m) { return m.name == body.material; });
+  if (found != input.materials.end()) return *found;
+  throw UserError(ExitCode::bad_case, fmt::format("body `{}` asks for material `{}`, which is not there", body.name,
+                                                  body.material));
+}
+
+/// Appends a body's mesh to the model's arrays. Elements are padded to whole vectors with the padding triangle, whose
+/// corners are set when the number of nodes is known.
+void append_body(Model& model, const BodyCase& from, const MaterialCase& material, const Mesh& mesh) {
+  const auto nodes = static_cast<Index>(mesh.nodes.size());
+  const auto elements = static_cast<Index>(mesh.triangles.size());
+  Body body{.name = from.name,
+            .law = material.law,
+            .density = material.density,
+            .thickness = from.thickness,
+            .node_begin = model.node_count,
+            .node_end = model.node_count + nodes,
+            .element_begin = static_cast<Index>(model.corners.size())};
+  body.element_end = body.element_begin + elements;
+  body.padded_end = (body.element_end + lanes - 1) / lanes * lanes;
+  const auto shifted = [&](Edge e) { return Edge{e.a + body.node_begin, e.b + body.node_begin}; };
+  for (const Edge& e : boundary_edges(mesh)) body.boundary.push_back(shifted(e));
+  for (const NamedEdges& side : mesh.sides) {
+    body.sides.push_back({side.name, {}});
+    for (const Edge& e : side.edges) body.sides.back().edges.push_back(shifted(e));
+  }
+
+  model.rest.insert(model.rest.end(), mesh.nodes.begin(), mesh.nodes.end());
+  model.node_numbers.insert(model.node_numbers.end(), mesh.node_numbers.begin(), mesh.node_numbers.end());
+  model.mass.resize(body.node_end);
+  for (const auto& t : mesh.triangles) {
+    const double area = 0.5 * twice_area(mesh.nodes[t[0]], mesh.nodes[t[1]], mesh.nodes[t[2]]);
+    const double mass = body.density * area * body.thickness;
+    body.mass += mass;
+    model.corners.push_back({t[0] + body.node_begin, t[1] + body.node_begin, t[2] + body.node_begin});
+    model.area_density.push_back(body.density * area);
+    for (const Index corner : model.corners.back()) model.mass[corner] += mass / 3;
+  }
+  model.element_numbers.insert(model.element_numbers.end(), mesh.triangle_numbers.begin(),
+                               mesh.triangle_numbers.end());
+  model.element_numbers.resize(body.padded_end);
+  model.area_density.resize(body.padded_end, body.density);
+  model.corners.resize(body.padded_end, {~Index{0}, ~Index{0}, ~Index{0}});
+  model.node_count += nodes;
+  model.element_count += elements;
+  model.bodies.push_back(std::move(body));
+}
+
+Vec2 centre_of_mass(const Model& model, const Body& body) {
+  Vec2 moment;
+  for (Index i = body.node_begin; i < body.node_end; ++i) moment += model.mass[i] * model.rest[i];
+  return (1 / body.mass) * moment;
+}
+
+void set_start_velocity(Model& model, const BodyCase& from, const Body& body) {
+  const Vec2 centre = centre_of_mass(model, body);
+  model.start_velocity.resize(body.node_end);
+  for (Index i = body.node_begin; i < body.node_end; ++i) {
+    Vec2 v = from.velocity + from.spin * perpendicular(model.rest[i] - centre);
+    if (from.cosine_mode) {
+      v += turn_by(dot(from.cosine_mode->wave_vector, model.rest[i])).cos * from.cosine_mode->amplitude;
+    }
+    model.start_velocity[i] = v;
+  }
+}
+
+/// Three nodes that never move carry the triangle that pads the element arrays: large, so that it never limits the step.
+void add_padding(Model& model) {
+  double size = 1;
+  for (const Vec2 p : model.rest) size = std::max({size, std::fabs(p.x), std::fabs(p.y)});
+  const Index first = model.node_count;
+  model.rest.insert(model.rest.end(), {{0, 0}, {size, 0}, {0, size}});
+  model.start_velocity.resize(model.rest.size());
+  model.mass.resize(model.rest.size(), 1);
+  for (auto& corners : model.corners) {
+    if (corners[0] == ~Index{0}) corners = {first, first + 1, first + 2};
+  }
+  for (const Body& body : model.bodies) {
+    for (Index e = body.element_end; e < body.padded_end; ++e) {
+      model.area_density[e] = body.density * 0.5 * size * size;
+    }
+  }
+}
+
+void cut_blocks(Model& model) {
+  for (Index b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    for (Index e = body.element_begin; e < body.padded_end; e += elements_per_block) {
+      model.element_blocks.push_back({e, std::min(e + elements_per_block, body.padded_end), b});
+    }
+    for (Index i = body.node_begin; i < body.node_end; i += nodes_per_block) {
+      model.node_blocks.push_back({i, std::min(i + nodes_per_block, body.node_end), b});
+    }
+  }
+}
+
+void list_pushed_nodes(Model& model) {
+  auto& nodes = model.pushed_nodes;
+  if (!model.obstacles.empty()) nodes = model.contact_nodes;
+  for (const Load& load : model.loads) nodes.insert(nodes.end(), load.nodes.begin(), load.nodes.end());
+  for (const Support& s : model.supports) nodes.insert(nodes.end(), s.nodes.begin(), s.nodes.end());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+}
+
+}  // namespace
+
+Model build_model(const Case& input) {
+  Model model;
+  model.run = input.run;
+  model.contact = input.contact;
+  std::vector<Mesh> meshes;
+  for (const BodyCase& body : input.bodies) {
+    meshes.push_back(generate(body.mesh));
+    check_mesh(meshes.back());
+    meshes.back() = renumber(meshes.back());
+    append_body(model, body, material_of(input, body), meshes.back());
+    set_start_velocity(model, body, model.bodies.back());
+  }
+  add_padding(model);
+  for (const double mass : model.mass) model.inverse_mass.push_back(1 / mass);
+  model.node_corners = node_corners(model.rest.size(), model.corners);
+  cut_blocks(model);
+
+  add_obstacles(model, input);
+  add_supports(model, input, meshes);
+  add_loads(model, input, meshes);
+  add_observers(model, input, meshes);
+  list_pushed_nodes(model);
+  model.output = {.fields_every = input.output.fields_every.value_or(0),
+                  .fields_at = input.output.fields_at,
+                  .histories_every = input.output.histories_every.value_or(input.run.end_time / 1000)};
+  std::sort(model.output.fields_at.begin(), model.output.fields_at.end());
+  return model;
+}
+
+}  // namespace udar

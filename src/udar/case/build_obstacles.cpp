@@ -1,0 +1,106 @@
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "udar/case/build_parts.hpp"
+
+namespace udar {
+namespace {
+
+/// What the boundary offers to a spring at each contact node.
+struct ContactNode {
+  Index node = 0;
+  double edge_length = 0;  ///< m, half of the two boundary edges at the node
+  double stiffness = 0;    ///< N/m, automatic
+};
+
+/// Height over its boundary edge of the element that has it, m. The element is found among those of node `a`.
+double element_height(const Model& model, Edge edge) {
+  for (const std::uint32_t corner : model.node_corners.of(edge.a)) {
+    const auto& t = model.corners[corner / 3];
+    if (std::find(t.begin(), t.end(), edge.b) == t.end()) continue;
+    const double area = twice_area(model.rest[t[0]], model.rest[t[1]], model.rest[t[2]]);
+    return area / length(model.rest[edge.b] - model.rest[edge.a]);
+  }
+  return 0;
+}
+
+/// Automatic stiffness: (lambda + 2 G) t times tributary edge length over element height, so that a spring is as stiff
+/// as the element behind it.
+std::vector<ContactNode> contact_nodes(const Model& model) {
+  std::vector<ContactNode> found;
+  for (const Body& body : model.bodies) {
+    std::unordered_map<Index, std::size_t> place;
+    const double modulus =
+        std::visit([](const auto& law) { return law.elasticity().wave_modulus(); }, body.law) * body.thickness;
+    for (const Edge& edge : body.boundary) {
+      const double edge_length = length(model.rest[edge.b] - model.rest[edge.a]);
+      const double stiffness = modulus * 0.5 * edge_length / element_height(model, edge);
+      for (const Index node : {edge.a, edge.b}) {
+        const auto [at, fresh] = place.try_emplace(node, found.size());
+        if (fresh) found.push_back({.node = node});
+        found[at->second].edge_length += 0.5 * edge_length;
+        found[at->second].stiffness += stiffness;
+      }
+    }
+  }
+  std::sort(found.begin(), found.end(), [](const ContactNode& a, const ContactNode& b) { return a.node < b.node; });
+  return found;
+}
+
+/// k/m of the springs and c/m of the dashpots that may act on a node at the same time: of all obstacles.
+void limit_steps(Model& model) {
+  std::vector<double> spring(model.node_count);
+  std::vector<double> dashpot(model.node_count);
+  for (const Obstacle& obstacle : model.obstacles) {
+    for (std::size_t c = 0; c < model.contact_nodes.size(); ++c) {
+      const Index node = model.contact_nodes[c];
+      const double stiffer = obstacle.friction > 0
+                                 ? std::max(obstacle.normal_stiffness[c], obstacle.tangential_stiffness[c])
+                                 : obstacle.normal_stiffness[c];
+      spring[node] += stiffer * model.inverse_mass[node];
+      dashpot[node] +=
+          2 * model.contact.damping * std::sqrt(obstacle.normal_stiffness[c] * model.inverse_mass[node]);
+    }
+  }
+  for (const Body& body : model.bodies) {
+    for (Index e = body.element_begin; e < body.element_end; ++e) {
+      Model::ContactElement found{.element = e};
+      for (const Index corner : model.corners[e]) {
+        found.spring = std::max(found.spring, spring[corner]);
+        found.dashpot = std::max(found.dashpot, dashpot[corner]);
+      }
+      if (found.spring > 0) model.contact_elements.push_back(found);
+    }
+  }
+}
+
+}  // namespace
+
+void add_obstacles(Model& model, const Case& input) {
+  const std::vector<ContactNode> nodes = contact_nodes(model);
+  for (const ContactNode& n : nodes) {
+    model.contact_nodes.push_back(n.node);
+    model.contact_node_sizes.push_back(n.edge_length);
+  }
+  for (const ObstacleCase& from : input.obstacles) {
+    const PreparedShape prepared = prepare(from.shape);
+    Obstacle obstacle{.name = from.name,
+                      .shape = from.shape,
+                      .prepared = prepared,
+                      .bounds = bounds(prepared),
+                      .friction = from.friction,
+                      .velocity = from.velocity,
+                      .normal_stiffness = {},
+                      .tangential_stiffness = {}};
+    for (const ContactNode& n : nodes) {
+      const double normal = from.stiffness.value_or(n.stiffness);
+      obstacle.normal_stiffness.push_back(normal);
+      obstacle.tangential_stiffness.push_back(from.tangential_stiffness.value_or(normal));
+    }
+    model.obstacles.push_back(std::move(obstacle));
+  }
+  limit_steps(model);
+}
+
+}  // namespace udar

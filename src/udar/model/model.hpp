@@ -1,0 +1,173 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "udar/base/time_table.hpp"
+#include "udar/contact/shapes.hpp"
+#include "udar/material/laws.hpp"
+#include "udar/mesh/mesh.hpp"
+#include "udar/mesh/node_corners.hpp"
+#include "udar/model/settings.hpp"
+
+namespace udar {
+
+/// Everything that does not change during a run. Const once built; SI units throughout.
+
+/// One body: a run of nodes and a run of elements with one law. Element arrays are padded to whole vectors: elements
+/// from `element_end` to `padded_end` are triangles of the padding nodes, which never move and carry no mass.
+struct Body {
+  std::string name;
+  Law law = Elastic{};
+  double density = 0;    ///< kg/m3
+  double thickness = 0;  ///< m
+  Index node_begin = 0;
+  Index node_end = 0;
+  Index element_begin = 0;
+  Index element_end = 0;
+  Index padded_end = 0;
+  double mass = 0;  ///< kg
+  std::vector<Edge> boundary;
+  std::vector<NamedEdges> sides;
+};
+
+/// A stretch of elements of one body, the unit of work of the element sweep and of its fixed order of sums.
+struct ElementBlock {
+  Index begin = 0;
+  Index end = 0;
+  Index body = 0;
+};
+
+/// A stretch of nodes of one body.
+struct NodeBlock {
+  Index begin = 0;
+  Index end = 0;
+  Index body = 0;
+};
+
+inline constexpr Index elements_per_block = 128;
+inline constexpr Index nodes_per_block = 256;
+inline constexpr Index lanes = 8;           ///< element arrays are padded to this
+inline constexpr Index padding_nodes = 3;   ///< corners of the padding triangle, after the last node
+
+/// A rigid obstacle and the springs between it and the nodes that may touch it.
+struct Obstacle {
+  std::string name;
+  Shape shape;
+  PreparedShape prepared;
+  Box bounds;  ///< m, holds the obstacle where it stands at t = 0
+  double friction = 0;
+  Vec2 velocity{};  ///< m/s
+  /// N/m, one for each of Model::contact_nodes.
+  std::vector<double> normal_stiffness;
+  std::vector<double> tangential_stiffness;
+};
+
+/// Nodes whose motion is given. Directions not held stay free.
+struct Support {
+  std::string name;
+  Index body = 0;
+  std::vector<Index> nodes;
+  bool holds_x = false;
+  bool holds_y = false;
+  bool turns = false;   ///< rigidly about `centre`; then x and y are both held
+  TimeTable move_x;     ///< m
+  TimeTable move_y;     ///< m
+  TimeTable turn;       ///< rad
+  Vec2 centre{};        ///< m
+};
+
+/// Forces at nodes: `value` times `share` at each (constant direction), or a pressure on edges that turns with them.
+struct Load {
+  std::string name;
+  std::vector<Index> nodes;
+  std::vector<double> shares;  ///< 1 at each node of a force; area (m2) of a traction
+  std::vector<Edge> edges;     ///< of a pressure; nodes[2 k], nodes[2 k + 1] are the ends of edge k
+  Vec2 value{};                ///< N, or Pa
+  double pressure = 0;         ///< Pa
+  double thickness = 0;        ///< m
+  TimeTable factor;
+};
+
+/// When extremes are taken.
+struct ObserverWindow {
+  double begin = 0;  ///< s
+  double end = 0;    ///< s
+};
+
+struct NodeObserver {
+  std::string name;
+  Index node = 0;
+  ObserverWindow window;
+};
+
+struct ElementObserver {
+  std::string name;
+  Index element = 0;
+  ObserverWindow window;
+};
+
+struct RegionObserver {
+  std::string name;
+  std::vector<Index> nodes;
+  double mass = 0;  ///< kg
+  ObserverWindow window;
+};
+
+struct OutputSettings {
+  double fields_every = 0;  ///< s; 0: only fields_at
+  std::vector<double> fields_at;
+  double histories_every = 0;  ///< s
+};
+
+struct Model {
+  RunSettings run;
+  ContactSettings contact;
+  std::vector<Body> bodies;
+  std::vector<ElementBlock> element_blocks;
+  std::vector<NodeBlock> node_blocks;
+
+  // Nodes, then the padding nodes.
+  Index node_count = 0;
+  std::vector<Vec2> rest;                    ///< m, undeformed places
+  std::vector<Vec2> start_velocity;          ///< m/s
+  std::vector<double> mass;                  ///< kg
+  std::vector<double> inverse_mass;          ///< 1/kg
+  std::vector<Index> node_numbers;           ///< the user's numbers, from 0 in each body
+  NodeCorners node_corners;                  ///< which corner forces a node sums, in element order
+
+  // Elements, padded.
+  Index element_count = 0;  ///< without padding
+  std::vector<std::array<Index, 3>> corners;
+  std::vector<double> area_density;          ///< kg/m: density x undeformed area, constant since masses are
+  std::vector<Index> element_numbers;        ///< the user's numbers
+
+  // Contact: the outer nodes of all bodies may touch every obstacle.
+  std::vector<Index> contact_nodes;
+  std::vector<double> contact_node_sizes;  ///< m, mean length of the two boundary edges at the node
+  std::vector<Obstacle> obstacles;
+  /// Elements with a contact node and what springs (1/s2) and dashpots (1/s) add to their stable limit.
+  struct ContactElement {
+    Index element = 0;
+    double spring = 0;
+    double dashpot = 0;
+  };
+  std::vector<ContactElement> contact_elements;
+
+  std::vector<Support> supports;
+  std::vector<Load> loads;
+  /// Nodes that contact, loads or supports may push; only there is the external force other than zero.
+  std::vector<Index> pushed_nodes;
+
+  std::vector<NodeObserver> observed_nodes;
+  std::vector<ElementObserver> observed_elements;
+  std::vector<RegionObserver> observed_regions;
+  OutputSettings output;
+
+  [[nodiscard]] const Body& body_of_element(Index element) const;
+  [[nodiscard]] const Body& body_of_node(Index node) const;
+};
+
+}  // namespace udar

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "udar/base/vec2.hpp"
+#include "udar/contact/penalty.hpp"
+#include "udar/mesh/mesh.hpp"
+#include "udar/model/ledger.hpp"
+
+namespace udar {
+
+/// A node as the element sweep loads it: its place at t_n and its mean velocity over the coming step,
+/// (x_{n+1} - x_n) / h_{n+1}. For central difference that is v_{n+1/2}.
+struct alignas(32) NodeRecord {
+  double x = 0;   ///< m
+  double y = 0;   ///< m
+  double vx = 0;  ///< m/s
+  double vy = 0;  ///< m/s
+};
+
+/// What one obstacle has done to all bodies together.
+struct ObstacleBook {
+  ForceBook total;         ///< contact, friction and damping
+  std::uint64_t touching = 0;  ///< nodes now
+};
+
+/// What limits the step.
+struct StepLimit {
+  double size = 0;        ///< s, stable limit
+  Index element = 0;
+  std::uint32_t by_contact = 0;  ///< 1 where contact springs lower the element's limit
+};
+
+struct Clock {
+  CompensatedSum time;          ///< s, t_n
+  std::uint64_t step = 0;       ///< n
+  double last_step = 0;         ///< s, h_n; 0 at the start
+  double step_before = 0;       ///< s, h_{n-1}
+  double second_step_before = 0;  ///< s, h_{n-2}
+  double next_step = 0;         ///< s, h_{n+1}
+  double automatic_step = 0;    ///< s, what an automatic step may grow from
+  StepLimit limit;              ///< at t_n
+  double smallest_step = 0;     ///< s
+  double largest_step = 0;      ///< s
+  std::uint64_t shortened = 0;  ///< steps in which a fixed step was above the stable limit
+  double first_shortened = 0;   ///< s
+  std::uint64_t first_shortened_element = 0;
+  double largest_excess = 0;    ///< largest step over stable limit
+};
+
+/// Everything that changes: plain arrays and numbers, no pointer, nothing sized by the number of threads. Only the step
+/// writes it. At rest between two steps it holds t_n: places x_n, stresses s_n, accelerations a_n, and the velocity
+/// that carries the nodes to x_{n+1}.
+struct State {
+  Clock clock;
+  std::vector<NodeRecord> nodes;  ///< padding nodes at the end
+  std::vector<Vec2> acceleration;  ///< m/s2, a_n
+  std::vector<Vec2> external;      ///< N, contact, loads and supports
+
+  // Adams integrators only, else empty.
+  std::vector<Vec2> velocity;             ///< m/s, v_n
+  std::vector<Vec2> velocity_before;      ///< m/s, mean over the last step
+  std::vector<Vec2> last_acceleration;    ///< m/s2, a_{n-1}
+  std::vector<Vec2> second_acceleration;  ///< m/s2, a_{n-2}
+
+  // Elements, padded.
+  std::vector<double> stress_xx;  ///< Pa, fixed axes
+  std::vector<double> stress_yy;
+  std::vector<double> stress_xy;
+  std::vector<double> stress_zz;
+  std::vector<double> plastic_strain;
+  std::vector<double> plastic_power;  ///< J/m3 in the last step: above 0 where the element flows now
+
+  std::vector<SpringState> contacts;  ///< obstacle by obstacle, one for each contact node
+  std::vector<ObstacleBook> obstacles;
+  std::vector<Vec2> load_forces;     ///< N, load by load, node by node
+  std::vector<Vec2> support_forces;  ///< N, support by support, node by node
+  std::vector<Vec2> body_momentum;   ///< kg m/s, one for each body, with the velocity of the coming step
+  double largest_penetration = 0;    ///< over the size of the touching node's smallest element
+  Ledger ledger;
+};
+
+/// Velocity at t_n, m/s, from what the integrator keeps.
+inline Vec2 velocity(const State& state, Index node) {
+  if (!state.velocity.empty()) return state.velocity[node];
+  const NodeRecord& r = state.nodes[node];
+  return Vec2{r.vx, r.vy} - (0.5 * state.clock.next_step) * state.acceleration[node];
+}
+
+/// Names every array of the state once: for hashing its bits, finding what is not a number, counting memory, saving.
+template <class S, class Visitor>
+void for_each_field(S& state, Visitor&& visit) {
+  visit("clock", state.clock);
+  visit("nodes", state.nodes);
+  visit("acceleration", state.acceleration);
+  visit("external", state.external);
+  visit("velocity", state.velocity);
+  visit("velocity_before", state.velocity_before);
+  visit("last_acceleration", state.last_acceleration);
+  visit("second_acceleration", state.second_acceleration);
+  visit("stress_xx", state.stress_xx);
+  visit("stress_yy", state.stress_yy);
+  visit("stress_xy", state.stress_xy);
+  visit("stress_zz", state.stress_zz);
+  visit("plastic_strain", state.plastic_strain);
+  visit("plastic_power", state.plastic_power);
+  visit("contacts", state.contacts);
+  visit("obstacles", state.obstacles);
+  visit("load_forces", state.load_forces);
+  visit("support_forces", state.support_forces);
+  visit("body_momentum", state.body_momentum);
+  visit("largest_penetration", state.largest_penetration);
+  visit("ledger", state.ledger);
+}
+
+}  // namespace udar

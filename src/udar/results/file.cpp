@@ -1,0 +1,177 @@
+#include "udar/results/file.hpp"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+
+#include "udar/base/error.hpp"
+
+namespace udar {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* cure(int error) {
+  switch (error) {
+    case ENOSPC:
+    case EDQUOT:
+      return "; free space on the disk, or choose another folder with --output";
+    case EACCES:
+    case EPERM:
+    case EROFS:
+      return "; you may not write there: choose another folder with --output";
+    case ENOENT:
+    case ENOTDIR:
+      return "; the folder does not exist or was removed";
+    case EFBIG:
+      return "; a file size limit is reached: raise it with `ulimit -f`, or write fields less often";
+    case EMFILE:
+    case ENFILE:
+      return "; too many files are open: raise the limit with `ulimit -n`";
+    case EIO:
+      return "; the disk reports a fault: check it, or choose another folder with --output";
+    case ELOOP:
+      return "; it is a link, and links are not followed";
+    default:
+      return "";
+  }
+}
+
+[[noreturn]] void fail(const char* action, const fs::path& path, int error) {
+  throw OutputError(
+      fmt::format("cannot {} {}: {}{}", action, path.string(), std::generic_category().message(error), cure(error)));
+}
+
+/// Calls again while a signal interrupts.
+template <class Call>
+auto retry(Call call) {
+  auto result = call();
+  while (result < 0 && errno == EINTR) result = call();
+  return result;
+}
+
+void write_all(int file, std::string_view bytes, const fs::path& path) {
+  while (!bytes.empty()) {
+    const ssize_t count = retry([&] { return ::write(file, bytes.data(), bytes.size()); });
+    if (count < 0) fail("write", path, errno);
+    if (count == 0) fail("write", path, EIO);  // never for a regular file; without this the loop would not end
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+  }
+}
+
+void sync(int file, const fs::path& path) {
+  // Devices, pipes and some network folders cannot be synced; nothing can be done about it, and nothing is wrong.
+  if (retry([&] { return ::fsync(file); }) < 0 && errno != EINVAL && errno != ENOTSUP) fail("write", path, errno);
+}
+
+void close_checked(Descriptor& file, const fs::path& path) {
+  // Linux releases the number even when close is interrupted: a second close could hit someone else's file.
+  if (::close(file.release()) < 0 && errno != EINTR) fail("close", path, errno);
+}
+
+void sync_folder(const fs::path& folder) {
+  const Descriptor file(retry([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); }));
+  if (!file.is_open()) fail("open folder", folder, errno);
+  sync(file.number(), folder);
+}
+
+void write_new(const fs::path& path, std::string_view bytes) {
+  ::unlink(path.c_str());  // left by a run that was killed here
+  const int flags = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
+  Descriptor file(retry([&] { return ::open(path.c_str(), flags, 0666); }));
+  if (!file.is_open()) fail("create", path, errno);
+  write_all(file.number(), bytes, path);
+  sync(file.number(), path);
+  close_checked(file, path);
+}
+
+}  // namespace
+
+Descriptor::~Descriptor() {
+  if (is_open()) ::close(number_);
+}
+
+void write_file(const fs::path& path, std::string_view bytes) {
+  struct stat found {};
+  if (::lstat(path.c_str(), &found) == 0 && !S_ISREG(found.st_mode)) {
+    throw OutputError(
+        fmt::format("cannot write {}: it is not a regular file; remove it, or choose another folder with "
+                    "--output",
+                    path.string()));
+  }
+  fs::path temporary = path;
+  temporary += ".tmp";
+  try {
+    write_new(temporary, bytes);
+    if (::rename(temporary.c_str(), path.c_str()) < 0) fail("rename a file to", path, errno);
+  } catch (...) {
+    ::unlink(temporary.c_str());
+    throw;
+  }
+  sync_folder(path.has_parent_path() ? path.parent_path() : fs::path("."));
+}
+
+std::string read_file(const fs::path& path, std::size_t most_bytes) {
+  // Not to wait for a pipe that nobody writes.
+  const Descriptor file(retry([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); }));
+  if (!file.is_open()) fail("open", path, errno);
+  std::string bytes;
+  constexpr std::size_t piece = std::size_t{1} << 18;
+  for (;;) {
+    const std::size_t before = bytes.size();
+    bytes.resize(before + piece);
+    const ssize_t count = retry([&] { return ::read(file.number(), bytes.data() + before, piece); });
+    if (count < 0) fail("read", path, errno);
+    bytes.resize(before + static_cast<std::size_t>(count));
+    if (bytes.size() > most_bytes) {
+      throw OutputError(fmt::format("cannot read {}: it is larger than {} bytes", path.string(), most_bytes));
+    }
+    if (count == 0) return bytes;
+  }
+}
+
+AppendFile::AppendFile(fs::path path) : path_(std::move(path)) {
+  const int flags = O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC;
+  file_ = Descriptor(retry([&] { return ::open(path_.c_str(), flags, 0666); }));
+  if (!file_.is_open()) fail("create", path_, errno);
+}
+
+AppendFile::~AppendFile() {
+  try {
+    if (is_open()) flush();
+  } catch (const OutputError&) {
+    // Reached only while another error is on its way out, or where the owner did not care to close.
+  }
+}
+
+void AppendFile::write(std::string_view text) {
+  constexpr std::size_t largest_buffer = 65536;
+  if (!is_open()) throw OutputError(fmt::format("cannot write {}: it is closed", path_.string()));
+  buffer_ += text;
+  if (buffer_.size() >= largest_buffer) flush();
+}
+
+void AppendFile::flush() {
+  if (!is_open()) return;
+  const std::string bytes = std::exchange(buffer_, {});
+  try {
+    write_all(file_.number(), bytes, path_);
+  } catch (const OutputError&) {
+    file_ = Descriptor();  // a hole in the middle of a history would be worse than its end
+    throw;
+  }
+}
+
+void AppendFile::close() {
+  if (!is_open()) return;
+  flush();
+  sync(file_.number(), path_);
+  close_checked(file_, path_);
+}
+
+}  // namespace udar

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace udar {
+
+/// Makes `path` hold exactly `bytes`, or leaves it as it was: temporary file beside it, fsync, rename, fsync of the
+/// folder. Whoever reads `path` at any moment, even after a power cut, finds the old or the new content, never a part.
+/// Throws OutputError; refuses to replace anything but a regular file.
+void write_file(const std::filesystem::path& path, std::string_view bytes);
+
+/// The whole file. Throws OutputError where it cannot be read or is larger than `most_bytes`.
+std::string read_file(const std::filesystem::path& path, std::size_t most_bytes);
+
+/// An open file number, closed when it goes out of scope.
+class Descriptor {
+ public:
+  Descriptor() = default;
+  explicit Descriptor(int number) : number_(number) {}
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
+  ~Descriptor();
+  [[nodiscard]] int number() const { return number_; }
+  [[nodiscard]] bool is_open() const { return number_ >= 0; }
+  int release() { return std::exchange(number_, -1); }
+
+ private:
+  int number_ = -1;
+};
+
+/// A text file that grows at its end. Every call that reaches the disk throws OutputError when it fails; after that the
+/// file takes no more.
+class AppendFile {
+ public:
+  AppendFile() = default;
+  /// Opens `path` for appending and creates it where it is missing; never follows a link.
+  explicit AppendFile(std::filesystem::path path);
+  AppendFile(AppendFile&&) noexcept = default;
+  AppendFile& operator=(AppendFile&&) noexcept = default;
+  /// Hands over what is left and ignores failures: call `close` where they matter.
+  ~AppendFile();
+
+  /// Takes `text` into the buffer, which goes out when it is full.
+  void write(std::string_view text);
+  /// Hands the buffer to the operating system: other programs see it, a killed process does not lose it.
+  void flush();
+  /// Flushes, waits for the disk and closes. A second call does nothing.
+  void close();
+  [[nodiscard]] bool is_open() const { return file_.is_open(); }
+
+ private:
+  std::filesystem::path path_;
+  Descriptor file_;
+  std::string buffer_;
+};
+
+}  // namespace udar

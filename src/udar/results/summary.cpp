@@ -1,0 +1,236 @@
+#include "udar/results/summary.hpp"
+
+#include <fmt/core.h>
+
+#include <concepts>
+#include <nlohmann/json.hpp>
+
+#include "udar/base/error.hpp"
+#include "udar/results/file.hpp"
+
+namespace udar {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int schema = 1;
+
+// One list of names for each struct serves writing and reading: `visit(name, member)` for every member.
+
+template <class T, class Plain>
+concept Is = std::same_as<std::remove_const_t<T>, Plain>;
+
+template <Is<HistorySummary> T, class Visit>
+void for_each_member(T& s, Visit visit) {
+  visit("min", s.min);
+  visit("max", s.max);
+  visit("max_abs", s.max_abs);
+  visit("last", s.last);
+  visit("time_of_min", s.time_of_min);
+  visit("time_of_max", s.time_of_max);
+}
+
+template <Is<EpisodeSummary> T, class Visit>
+void for_each_member(T& s, Visit visit) {
+  visit("first_touch", s.first_touch);
+  visit("separation", s.separation);
+  visit("duration", s.duration);
+  visit("impulse", s.impulse);
+  visit("peak_force", s.peak_force);
+  visit("velocity_before", s.velocity_before);
+  visit("velocity_after", s.velocity_after);
+  visit("restitution", s.restitution);
+}
+
+template <Is<ContactSummary> T, class Visit>
+void for_each_member(T& s, Visit visit) {
+  visit("first_touch", s.first_touch);
+  visit("last_separation", s.last_separation);
+  visit("duration", s.duration);
+  visit("duration_99", s.duration_99);
+  visit("impulse", s.impulse);
+  visit("peak_force", s.peak_force);
+  visit("merged_gaps", s.merged_gaps);
+  visit("episodes", s.episodes);
+}
+
+template <Is<LedgerSummary> T, class Visit>
+void for_each_member(T& s, Visit visit) {
+  visit("start", s.start);
+  visit("kinetic", s.kinetic);
+  visit("elastic", s.elastic);
+  visit("plastic", s.plastic);
+  visit("stored_elastic", s.stored_elastic);
+  visit("contact", s.contact);
+  visit("friction", s.friction);
+  visit("dropped", s.dropped);
+  visit("damping", s.damping);
+  visit("gravity", s.gravity);
+  visit("loads", s.loads);
+  visit("supports", s.supports);
+  visit("obstacles", s.obstacles);
+  visit("total", s.total);
+  visit("error", s.error);
+}
+
+template <Is<MomentumSummary> T, class Visit>
+void for_each_member(T& s, Visit visit) {
+  visit("start", s.start);
+  visit("end", s.end);
+  visit("obstacles", s.obstacles);
+  visit("gravity", s.gravity);
+  visit("loads", s.loads);
+  visit("supports", s.supports);
+  visit("damping", s.damping);
+  visit("error", s.error);
+}
+
+template <Is<TimeStepSummary> T, class Visit>
+void for_each_member(T& s, Visit visit) {
+  visit("min", s.min);
+  visit("max", s.max);
+  visit("time_of_min", s.time_of_min);
+  visit("limited_by", s.limited_by);
+  visit("shortened_steps", s.shortened_steps);
+  visit("first_shortened", s.first_shortened);
+  visit("first_shortened_by", s.first_shortened_by);
+}
+
+template <Is<Summary> T, class Visit>
+void for_each_member(T& s, Visit visit) {
+  visit("version", s.version);
+  visit("case_name", s.case_name);
+  visit("elements", s.elements);
+  visit("nodes", s.nodes);
+  visit("steps", s.steps);
+  visit("threads", s.threads);
+  visit("wall_seconds", s.wall_seconds);
+  visit("element_steps_per_second", s.element_steps_per_second);
+  visit("end_time", s.end_time);
+  visit("energy_error", s.energy_error);
+  visit("momentum_error", s.momentum_error);
+  visit("penetration_ratio", s.penetration_ratio);
+  visit("verdict", s.verdict);
+  visit("reasons", s.reasons);
+  visit("stop_reason", s.stop_reason);
+  visit("masses", s.masses);
+  visit("time_step", s.time_step);
+  visit("ledger", s.ledger);
+  visit("momentum", s.momentum);
+  visit("histories", s.histories);
+  visit("contacts", s.contacts);
+}
+
+Json written(double value) {
+  return value;  // NaN and infinities become null in the text
+}
+Json written(const Vec2& value) {
+  return Json::array({value.x, value.y});
+}
+template <class T>
+requires std::integral<T> || std::same_as<T, std::string> Json written(const T& value) {
+  return value;
+}
+template <class T>
+Json written(const std::vector<T>& values);
+template <class T>
+Json written(const std::map<std::string, T>& values);
+template <class T>
+requires requires(T& s) {
+  for_each_member(s, [](const char*, auto&) {});
+}
+Json written(const T& value) {
+  Json out = Json::object();
+  for_each_member(value, [&](const char* name, const auto& member) { out[name] = written(member); });
+  return out;
+}
+template <class T>
+Json written(const std::vector<T>& values) {
+  Json out = Json::array();
+  for (const T& value : values) out.push_back(written(value));
+  return out;
+}
+template <class T>
+Json written(const std::map<std::string, T>& values) {
+  Json out = Json::object();
+  for (const auto& [name, value] : values) out[name] = written(value);
+  return out;
+}
+
+void check(bool right) {
+  if (!right) throw OutputError("not a summary of a run: a list or a table is missing");
+}
+
+void read(const Json& json, double& value) {
+  value = json.is_null() ? no_number : json.get<double>();
+}
+void read(const Json& json, Vec2& value) {
+  read(json.at(0), value.x);
+  read(json.at(1), value.y);
+}
+template <class T>
+requires std::integral<T> || std::same_as<T, std::string>
+void read(const Json& json, T& value) {
+  value = json.get<T>();
+}
+template <class T>
+void read(const Json& json, std::vector<T>& values);
+template <class T>
+void read(const Json& json, std::map<std::string, T>& values);
+template <class T>
+requires requires(T& s) {
+  for_each_member(s, [](const char*, auto&) {});
+}
+void read(const Json& json, T& value) {
+  check(json.is_object());
+  for_each_member(value, [&](const char* name, auto& member) {
+    if (json.contains(name)) read(json.at(name), member);
+  });
+}
+template <class T>
+void read(const Json& json, std::vector<T>& values) {
+  check(json.is_array());
+  for (const Json& item : json) read(item, values.emplace_back());
+}
+template <class T>
+void read(const Json& json, std::map<std::string, T>& values) {
+  check(json.is_object());
+  for (const auto& [name, item] : json.items()) read(item, values[name]);
+}
+
+}  // namespace
+
+std::string to_json(const Summary& summary) {
+  Json out{{"schema", schema}};
+  out.update(written(summary));
+  // Names that are not UTF-8 must not stop the summary of a finished run.
+  return out.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+Summary summary_from_json(std::string_view text) {
+  try {
+    const Json json = Json::parse(text);
+    if (json.at("schema") != schema) throw OutputError(fmt::format("the summary is not of schema {}", schema));
+    Summary summary;
+    read(json, summary);
+    return summary;
+  } catch (const Json::exception& error) {
+    throw OutputError(fmt::format("not a summary of a run: {}", error.what()));
+  }
+}
+
+void write_summary(const std::filesystem::path& path, const Summary& summary) {
+  write_file(path, to_json(summary));
+}
+
+Summary read_summary(const std::filesystem::path& path) {
+  constexpr std::size_t most_bytes = std::size_t{1} << 26;
+  const std::string text = read_file(path, most_bytes);
+  try {
+    return summary_from_json(text);
+  } catch (const OutputError& error) {
+    throw OutputError(fmt::format("cannot read {}: {}", path.string(), error.what()));
+  }
+}
+
+}  // namespace udar

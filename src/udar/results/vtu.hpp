@@ -1,0 +1,75 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "udar/base/vec2.hpp"
+
+namespace udar {
+
+/// Numbers of one kind, as they lie in the file.
+using VtuValues =
+    std::variant<std::vector<double>, std::vector<float>, std::vector<std::int32_t>, std::vector<std::uint8_t>>;
+
+/// A field: `components` numbers for each point or cell, one after another.
+struct VtuArray {
+  std::string name;
+  int components = 1;
+  VtuValues values;
+
+  friend bool operator==(const VtuArray&, const VtuArray&) = default;
+};
+
+/// What a cell is, numbered as VTK does.
+enum class VtuCell : std::uint8_t { line = 3, polyline = 4, triangle = 5, polygon = 7 };
+
+/// One frame: an unstructured grid in the plane with fields on its points and cells.
+struct VtuGrid {
+  double time = 0;                    ///< s
+  std::vector<Vec2> points;           ///< m
+  std::vector<std::int32_t> corners;  ///< point numbers of all cells, one cell after another
+  std::vector<std::int32_t> ends;     ///< for each cell: one past its last place in `corners`
+  std::vector<std::uint8_t> kinds;    ///< for each cell: a VtuCell
+  std::vector<VtuArray> point_fields;
+  std::vector<VtuArray> cell_fields;
+
+  /// Adds a cell over `points_of_cell`.
+  void add_cell(VtuCell kind, std::span<const std::int32_t> points_of_cell);
+  /// Adds a closed polygon with its own points: an obstacle.
+  void add_polygon(std::span<const Vec2> outline);
+
+  friend bool operator==(const VtuGrid&, const VtuGrid&) = default;
+};
+
+/// A grid of triangles.
+VtuGrid triangle_grid(double time, std::vector<Vec2> points, std::span<const std::array<std::int32_t, 3>> triangles);
+
+/// "velocity", "m/s" -> "velocity_m_per_s": letters, digits and `_` only, so that ParaView's calculator takes it.
+std::string field_name(std::string_view quantity, std::string_view unit);
+
+/// A field of numbers for pictures: 32 bits each, values beyond them at the largest.
+VtuArray scalar_field(std::string_view quantity, std::string_view unit, std::span<const double> values);
+/// A field of vectors, with z = 0 since VTK knows only three components.
+VtuArray vector_field(std::string_view quantity, std::string_view unit, std::span<const Vec2> values);
+/// Whole numbers: body, original node or element number.
+VtuArray number_field(std::string_view name, std::span<const std::int32_t> values);
+/// Yes or no, as 1 or 0.
+VtuArray flag_field(std::string_view name, std::span<const std::uint8_t> values);
+
+/// Writes `grid` as VTU (appended raw data, zlib blocks) all or nothing; ParaView and VTK read it. Throws OutputError,
+/// also for a field whose length does not fit.
+void write_vtu(const std::filesystem::path& path, const VtuGrid& grid);
+std::string to_vtu(const VtuGrid& grid);
+
+/// Reads what `write_vtu` wrote; other programs' VTU only as far as they write the same way. Every count and number is
+/// checked against the bytes there are before memory is taken. Throws OutputError.
+VtuGrid read_vtu(const std::filesystem::path& path);
+VtuGrid parse_vtu(std::string_view bytes);
+
+}  // namespace udar

@@ -1,0 +1,139 @@
+#include "udar/step/integrators.hpp"
+#include "udar/step/motion.hpp"
+#include "udar/step/stages.hpp"
+
+namespace udar {
+namespace {
+
+/// What changes the velocity of a node besides its own force.
+struct Drive {
+  double rate = 0;  ///< 1/s, mass damping
+  Vec2 gravity{};   ///< m/s2
+};
+
+/// v_{n+1/2} = v_{n-1/2} + a_n (h_n + h_{n+1}) / 2.
+struct CentralDifference {
+  double span;  ///< s
+
+  Vec2 next_velocity(State&, Index, Vec2 before, Vec2 acceleration) const { return before + span * acceleration; }
+
+  void book(NodeSums& sums, const State&, Index, double mass, Vec2 before, Vec2 after) const {
+    sums.kinetic += mass * dot(before, after);
+  }
+  static void finish(NodeSums& sums) { sums.momentum = sums.carried; }
+};
+
+/// The Adams family and its start: closes v_n with the weights of the step just done, then extrapolates the mean
+/// velocity of the step to come.
+struct Multistep {
+  StepWeights done;
+  StepWeights coming;
+  bool first;  ///< t = 0: no step was done yet
+
+  Vec2 next_velocity(State& state, Index i, Vec2 before, Vec2 acceleration) const {
+    Vec2& v = state.velocity[i];
+    Vec2& a0 = state.acceleration[i];
+    Vec2& a1 = state.last_acceleration[i];
+    Vec2& a2 = state.second_acceleration[i];
+    if (!first) {
+      v += done.implicit * acceleration + done.velocity[0] * a0 + done.velocity[1] * a1 + done.velocity[2] * a2;
+    }
+    a2 = a1;
+    a1 = a0;
+    state.velocity_before[i] = before;
+    return v + coming.mean[0] * acceleration + coming.mean[1] * a1 + coming.mean[2] * a2;
+  }
+
+  void book(NodeSums& sums, const State& state, Index i, double mass, Vec2, Vec2) const {
+    sums.kinetic += mass * dot(state.velocity[i], state.velocity[i]);
+    sums.momentum += mass * state.velocity[i];
+  }
+  static void finish(NodeSums&) {}
+};
+
+template <class Rule>
+NodeSums accelerate_block(const Model& model, State& state, const Workspace& work, const NodeBlock& block,
+                          const Drive& drive, const Rule& rule) {
+  NodeSums sums;
+  const Vec2 reference = drive.rate > 0 ? damping_reference(model, state, block.body) : Vec2{};
+  for (Index i = block.begin; i < block.end; ++i) {
+    NodeRecord& node = state.nodes[i];
+    const double mass = model.mass[i];
+    const Vec2 before{node.vx, node.vy};
+    const Vec2 internal = internal_force(model, work, i);
+    Vec2 force = internal + state.external[i];
+    Vec2 damping;
+    if (drive.rate > 0) {
+      damping = damping_force(model, state, i, drive.rate, reference);
+      force += damping;
+    }
+    const Vec2 acceleration = model.inverse_mass[i] * force + drive.gravity;
+    const Vec2 after = rule.next_velocity(state, i, before, acceleration);
+    state.acceleration[i] = acceleration;
+    node.vx = after.x;
+    node.vy = after.y;
+
+    sums.internal_power += dot(internal, before + after);
+    rule.book(sums, state, i, mass, before, after);
+    sums.kinetic_after += mass * dot(after, after);
+    sums.carried += mass * after;
+    sums.spin += mass * (node.x * after.y - node.y * after.x);
+    if (drive.rate > 0) {
+      sums.damping_force += damping;
+      sums.damping_before += dot(damping, before);
+      sums.damping_after += dot(damping, after);
+    }
+  }
+  rule.finish(sums);
+  return sums;
+}
+
+template <class Rule>
+void accelerate_all(const Model& model, State& state, Workspace& work, const Rule& rule) {
+  const Drive drive{.rate = damping_rate(model, state), .gravity = model.run.gravity};
+  work.pool.for_each_block(model.node_blocks.size(), [&](std::size_t b) {
+    work.node_sums[b] = accelerate_block(model, state, work, model.node_blocks[b], drive, rule);
+  });
+}
+
+/// Held nodes get their velocity exactly: the reaction carries them there up to rounding only.
+void hold(const Model& model, State& state, const Workspace& work) {
+  const double span = velocity_span(state.clock);
+  std::size_t first = 0;
+  for (const Support& support : model.supports) {
+    for (std::size_t k = 0; k < support.nodes.size(); ++k) {
+      const Vec2 wanted = work.held_velocities[first + k];
+      NodeRecord& node = state.nodes[support.nodes[k]];
+      Vec2& acceleration = state.acceleration[support.nodes[k]];
+      if (support.holds_x) {
+        acceleration.x += (wanted.x - node.vx) / span;
+        node.vx = wanted.x;
+      }
+      if (support.holds_y) {
+        acceleration.y += (wanted.y - node.vy) / span;
+        node.vy = wanted.y;
+      }
+    }
+    first += support.nodes.size();
+  }
+}
+
+}  // namespace
+
+void accelerate_nodes(const Model& model, State& state, Workspace& work) {
+  const Clock& clock = state.clock;
+  const IntegratorRule& rule = rule_of(model.run.integrator);
+  if (rule.weights == nullptr) {
+    accelerate_all(model, state, work, CentralDifference{velocity_span(clock)});
+  } else {
+    const bool first = clock.step == 0;
+    const StepWeights done =
+        first ? StepWeights{}
+              : weights_of(rule, clock.step - 1, {clock.last_step, clock.step_before, clock.second_step_before});
+    const StepWeights coming = weights_of(rule, clock.step, {clock.next_step, clock.last_step, clock.step_before});
+    accelerate_all(model, state, work, Multistep{done, coming, first});
+  }
+  hold(model, state, work);
+}
+
+}  // namespace udar

@@ -1,0 +1,31 @@
+#include "udar/step/stages.hpp"
+
+namespace udar {
+namespace {
+
+Vec2 place(const State& state, Index node) { return {state.nodes[node].x, state.nodes[node].y}; }
+
+}  // namespace
+
+void add_load_force(const Model& model, State& state) {
+  const double time = state.clock.time.value();
+  std::size_t first = 0;
+  for (const Load& load : model.loads) {
+    Vec2* const forces = state.load_forces.data() + first;
+    const double factor = load.factor.at(time);
+    if (load.edges.empty()) {
+      for (std::size_t k = 0; k < load.nodes.size(); ++k) forces[k] = (factor * load.shares[k]) * load.value;
+    } else {
+      // Half of the pressure on the deformed edge at each end, into the body, which lies on the edge's left.
+      const double half_pressure = 0.5 * factor * load.pressure * load.thickness;
+      for (std::size_t k = 0; k < load.edges.size(); ++k) {
+        const Vec2 inward = perpendicular(place(state, load.edges[k].b) - place(state, load.edges[k].a));
+        forces[2 * k] = forces[2 * k + 1] = half_pressure * inward;
+      }
+    }
+    for (std::size_t k = 0; k < load.nodes.size(); ++k) state.external[load.nodes[k]] += forces[k];
+    first += load.nodes.size();
+  }
+}
+
+}  // namespace udar

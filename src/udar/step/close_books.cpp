@@ -1,0 +1,202 @@
+#include <algorithm>
+#include <cmath>
+
+#include "udar/step/failure.hpp"
+#include "udar/step/integrators.hpp"
+#include "udar/step/motion.hpp"
+#include "udar/step/stages.hpp"
+
+namespace udar {
+namespace {
+
+/// Forces of one kind now, and their power with the velocities of the last and of the coming step.
+struct Account {
+  Vec2 force{};
+  double power_before = 0;
+  double power_after = 0;
+
+  void add(Vec2 f, Vec2 before, Vec2 after) {
+    force += f;
+    power_before += dot(f, before);
+    power_after += dot(f, after);
+  }
+  Account& operator+=(const Account& other) {
+    force += other.force;
+    power_before += other.power_before;
+    power_after += other.power_after;
+    return *this;
+  }
+};
+
+/// How forces at t_n enter the books of the integrator in use.
+class Booking {
+ public:
+  Booking(const Model& model, const State& state) : state_(state), rule_(rule_of(model.run.integrator)) {
+    const Clock& clock = state.clock;
+    span_ = velocity_span(clock);
+    // Central difference: m (v+^2 - v-^2) / 2 = f . span (v- + v+) / 2 exactly. The Adams family: trapezoids over steps.
+    before_ = rule_.weights == nullptr ? 0.5 * span_ : 0.5 * clock.last_step;
+    after_ = rule_.weights == nullptr ? 0.5 * span_ : 0.5 * clock.next_step;
+    if (rule_.weights != nullptr && clock.step > 0) {
+      done_ = weights_of(rule_, clock.step - 1, {clock.last_step, clock.step_before, clock.second_step_before});
+    }
+  }
+
+  [[nodiscard]] Vec2 after(Index node) const { return {state_.nodes[node].vx, state_.nodes[node].vy}; }
+  [[nodiscard]] Vec2 before(Index node) const {
+    if (!state_.velocity_before.empty()) return state_.velocity_before[node];
+    return after(node) - span_ * state_.acceleration[node];
+  }
+  [[nodiscard]] double work_before(const Account& a) const { return before_ * a.power_before; }
+  [[nodiscard]] double work_after(const Account& a) const { return after_ * a.power_after; }
+
+  void enter(const Account& account, ForceBook& book) const {
+    book.work_now = book.work.value() + work_before(account);
+    book.work.add(work_before(account) + work_after(account));
+    Vec2 impulse = span_ * account.force;
+    if (rule_.weights != nullptr) {
+      impulse = done_.implicit * account.force;
+      for (std::size_t k = 0; k < 3; ++k) impulse += done_.velocity[k] * book.past[k];
+      book.past = {account.force, book.past[0], book.past[1]};
+    }
+    book.impulse_x.add(impulse.x);
+    book.impulse_y.add(impulse.y);
+    book.force = account.force;
+  }
+
+ private:
+  const State& state_;
+  const IntegratorRule& rule_;
+  StepWeights done_;
+  double span_ = 0;
+  double before_ = 0;
+  double after_ = 0;
+};
+
+/// Contact forces, obstacle by obstacle; returns the account of the moving obstacles' own work.
+Account enter_contacts(const Model& model, State& state, const Booking& booking) {
+  Account normal, friction, damping, obstacle_work;
+  const std::size_t count = model.contact_nodes.size();
+  for (std::size_t o = 0; o < model.obstacles.size(); ++o) {
+    const Vec2 velocity = model.obstacles[o].velocity;
+    Account total;
+    for (std::size_t c = 0; c < count && state.obstacles[o].touching > 0; ++c) {
+      const SpringState& springs = state.contacts[o * count + c];
+      if (springs.touches == 0) continue;
+      const Vec2 before = booking.before(model.contact_nodes[c]);
+      const Vec2 after = booking.after(model.contact_nodes[c]);
+      normal.add(springs.normal_force, before, after);
+      friction.add(springs.friction_force, before, after);
+      damping.add(springs.damping_force, before, after);
+      total.add(springs.normal_force + springs.friction_force + springs.damping_force, before, after);
+    }
+    booking.enter(total, state.obstacles[o].total);
+    obstacle_work.add(total.force, velocity, velocity);
+  }
+  booking.enter(normal, state.ledger.book(ForceKind::contact));
+  booking.enter(friction, state.ledger.book(ForceKind::friction));
+  booking.enter(damping, state.ledger.book(ForceKind::contact_damping));
+  return obstacle_work;
+}
+
+/// Forces that are kept node by node, of loads or of supports.
+template <class Part>
+Account sum_forces(const std::vector<Part>& parts, const std::vector<Vec2>& forces, const Booking& booking) {
+  Account account;
+  std::size_t k = 0;
+  for (const Part& part : parts) {
+    for (const Index node : part.nodes) account.add(forces[k++], booking.before(node), booking.after(node));
+  }
+  return account;
+}
+
+NodeSums total_of_nodes(const Model& model, State& state, const Workspace& work) {
+  NodeSums total;
+  std::fill(state.body_momentum.begin(), state.body_momentum.end(), Vec2{});
+  for (std::size_t b = 0; b < work.node_sums.size(); ++b) {
+    const NodeSums& sums = work.node_sums[b];
+    total.internal_power += sums.internal_power;
+    total.kinetic += sums.kinetic;
+    total.kinetic_after += sums.kinetic_after;
+    total.damping_before += sums.damping_before;
+    total.damping_after += sums.damping_after;
+    total.damping_force += sums.damping_force;
+    total.spin += sums.spin;
+    total.carried += sums.carried;
+    total.momentum += sums.momentum;
+    state.body_momentum[model.node_blocks[b].body] += sums.momentum;
+  }
+  return total;
+}
+
+double total_mass(const Model& model) {
+  double mass = 0;
+  for (const Body& body : model.bodies) mass += body.mass;
+  return mass;
+}
+
+}  // namespace
+
+void open_books(const Model& model, State& state) {
+  Ledger& ledger = state.ledger;
+  for (Index i = 0; i < model.node_count; ++i) {
+    const Vec2 v{state.nodes[i].vx, state.nodes[i].vy};
+    ledger.start_kinetic += 0.5 * model.mass[i] * dot(v, v);
+    ledger.start_momentum += model.mass[i] * v;
+    ledger.momentum_scale += model.mass[i] * length(v);
+    state.body_momentum[static_cast<std::size_t>(&model.body_of_node(i) - model.bodies.data())] += model.mass[i] * v;
+  }
+  ledger.start_energy = ledger.start_kinetic + ledger.contact_energy + ledger.tangential_energy;
+  ledger.carried = ledger.start_momentum;
+}
+
+void close_books(const Model& model, State& state, Workspace& work) {
+  Ledger& ledger = state.ledger;
+  const Booking booking(model, state);
+  const NodeSums nodes = total_of_nodes(model, state, work);
+  if (!std::isfinite(nodes.kinetic_after)) fail_not_finite(model, state);
+
+  ledger.kinetic_energy = 0.5 * nodes.kinetic;
+  ledger.half_step_kinetic = 0.5 * nodes.kinetic_after;
+  ledger.momentum = nodes.momentum;
+  ledger.spin = nodes.spin;
+
+  const Vec2 weight = total_mass(model) * model.run.gravity;
+  const Account gravity{weight, dot(model.run.gravity, ledger.carried), dot(model.run.gravity, nodes.carried)};
+  ledger.carried = nodes.carried;
+  const Account loads = sum_forces(model.loads, state.load_forces, booking);
+  const Account supports = sum_forces(model.supports, state.support_forces, booking);
+  const Account obstacles = enter_contacts(model, state, booking);
+  booking.enter(gravity, ledger.book(ForceKind::gravity));
+  booking.enter(loads, ledger.book(ForceKind::load));
+  booking.enter(supports, ledger.book(ForceKind::support));
+  booking.enter({nodes.damping_force, nodes.damping_before, nodes.damping_after}, ledger.book(ForceKind::damping));
+  ledger.book(ForceKind::internal).work.add(0.5 * velocity_span(state.clock) * nodes.internal_power);
+
+  ledger.obstacle_work_now = ledger.obstacle_work.value() + booking.work_before(obstacles);
+  ledger.obstacle_work.add(booking.work_before(obstacles) + booking.work_after(obstacles));
+  Account external = gravity;
+  external += loads;
+  external += supports;
+  external += obstacles;
+  ledger.external_throughput.add(std::fabs(booking.work_before(external) + booking.work_after(external)));
+
+  ledger.energy_gap = std::max(ledger.energy_gap, std::fabs(ledger.energy_balance()));
+  double node_work = 0;
+  Vec2 impulses;
+  for (const ForceBook& book : ledger.books) {
+    node_work += book.work.value();
+    impulses += book.impulse();
+  }
+  ledger.identity_gap =
+      std::max(ledger.identity_gap, std::fabs(ledger.half_step_kinetic - ledger.start_kinetic - node_work));
+  ledger.momentum_gap =
+      std::max(ledger.momentum_gap, length(ledger.momentum - ledger.start_momentum - impulses));
+
+  // In the very first steps there is hardly any energy to compare with where a body starts from rest.
+  constexpr std::uint64_t first_judged = 100;
+  const bool judged = state.clock.step >= first_judged && model.run.when_unstable != WhenUnstable::carry_on;
+  if (judged && ledger.energy_error() > model.run.stop_at_energy_error) fail_energy(model, state);
+}
+
+}  // namespace udar

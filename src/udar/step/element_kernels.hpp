@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cmath>
+
+#include "udar/base/lanes.hpp"
+#include "udar/base/sym_tensor.hpp"
+#include "udar/material/elasticity.hpp"
+
+namespace udar {
+
+/// The formulas of one triangle, written once for a double or a pack of lanes: + - * / and sqrt only, no branches.
+
+/// Two sides of a triangle, from corner 0 to corners 1 and 2 (m), or how they change in a step.
+template <class Real>
+struct Sides {
+  Real x1, y1, x2, y2;
+
+  [[nodiscard]] Real twice_area() const { return x1 * y2 - x2 * y1; }
+};
+
+/// Strain increment of a step and the turn that goes with it.
+template <class Real>
+struct StrainStep {
+  Real xx, yy, xy2;      ///< e_x, e_y and g_xy = 2 e_xy
+  Real cos, sin;         ///< turn of the material
+  Real twice_area;       ///< m2, of the triangle in the middle of the step
+};
+
+/// Strain increment from the sides at the end of the step and their change during it, with gradients on the triangle
+/// in the middle of the step: a rigid turn then gives exactly no strain, and the exact turn follows without sine or
+/// cosine (Hughes and Winget 1980, eqs. 20-27).
+template <class Real>
+StrainStep<Real> strain_step(const Sides<Real>& end, const Sides<Real>& change) {
+  const Real half(0.5);
+  const Sides<Real> mid{end.x1 - half * change.x1, end.y1 - half * change.y1, end.x2 - half * change.x2,
+                        end.y2 - half * change.y2};
+  const Real twice_area = mid.twice_area();
+  const Real inverse = Real(1) / twice_area;
+  const Real u_x = (change.x1 * mid.y2 - change.x2 * mid.y1) * inverse;
+  const Real u_y = (change.x2 * mid.x1 - change.x1 * mid.x2) * inverse;
+  const Real v_x = (change.y1 * mid.y2 - change.y2 * mid.y1) * inverse;
+  const Real v_y = (change.y2 * mid.x1 - change.y1 * mid.x2) * inverse;
+  const Real q = Real(0.25) * (v_x - u_y);  // half the rotation increment = tan(turn / 2)
+  const Real scale = Real(1) / (Real(1) + q * q);
+  return {u_x, v_y, u_y + v_x, (Real(1) - q * q) * scale, Real(2) * q * scale, twice_area};
+}
+
+/// Stress of material that has turned by (cos, sin), in the fixed axes: R s R^T.
+template <class Real>
+SymTensor<Real> turned(const SymTensor<Real>& s, Real cos, Real sin) {
+  const Real cc = cos * cos;
+  const Real ss = sin * sin;
+  const Real cs = cos * sin;
+  const Real twice_shear = Real(2) * cs * s.xy;
+  return {cc * s.xx - twice_shear + ss * s.yy, ss * s.xx + twice_shear + cc * s.yy,
+          cs * (s.xx - s.yy) + (cc - ss) * s.xy, s.zz};
+}
+
+/// Elastic stress after the strain increment `e`, plane strain (Hooke).
+template <class Real>
+SymTensor<Real> elastic_trial(const SymTensor<Real>& s, const StrainStep<Real>& e, const Elasticity& elasticity) {
+  const Real pressure = Real(elasticity.lambda) * (e.xx + e.yy);
+  const Real two_g(2 * elasticity.shear_modulus);
+  return {s.xx + pressure + two_g * e.xx, s.yy + pressure + two_g * e.yy,
+          s.xy + Real(elasticity.shear_modulus) * e.xy2, s.zz + pressure};
+}
+
+/// Work of the stresses in the step per volume, J/m3: (s_n + s_{n+1}) : de / 2 with s_n before the turn.
+template <class Real>
+Real stress_work(const SymTensor<Real>& before, const SymTensor<Real>& after, const StrainStep<Real>& e) {
+  return Real(0.5) * ((before.xx + after.xx) * e.xx + (before.yy + after.yy) * e.yy + (before.xy + after.xy) * e.xy2);
+}
+
+/// Forces of the element's stress on corners 1 and 2 (N); corner 0 gets the opposite of their sum.
+template <class Real>
+struct CornerForces {
+  Real x1, y1, x2, y2;
+};
+
+template <class Real>
+CornerForces<Real> corner_forces(const SymTensor<Real>& s, const Sides<Real>& sides, Real half_thickness) {
+  return {half_thickness * (s.xy * sides.x2 - s.xx * sides.y2), half_thickness * (s.yy * sides.x2 - s.xy * sides.y2),
+          half_thickness * (s.xx * sides.y1 - s.xy * sides.x1), half_thickness * (s.xy * sides.y1 - s.yy * sides.x1)};
+}
+
+/// Square of the largest eigenfrequency of the triangle with its mass lumped in thirds, 1/s2: 3 / rho_now times the
+/// largest eigenvalue of D B B^T. Turned to the principal axes of B B^T, with a and c its in-plane principal values,
+/// that is L (a + c) / 2 + sqrt((L (a + c) / 2)^2 - (L^2 - lambda^2) a c), L = lambda + 2 G; for a triangle
+/// a + c = (sum of squared sides) / (4 A^2) and a c = 3 / (4 A^2). The shear eigenvalue G (a + c) is never larger for
+/// lambda >= 0 and is taken into account below 0. `area_density` is density x undeformed area, kg/m.
+template <class Real>
+Real eigenfrequency_squared(const Sides<Real>& s, const Elasticity& e, Real area_density) {
+  using std::fabs;
+  using std::sqrt;
+  const double modulus = e.wave_modulus();
+  const Real dx = s.x2 - s.x1;
+  const Real dy = s.y2 - s.y1;
+  const Real squares = s.x1 * s.x1 + s.y1 * s.y1 + s.x2 * s.x2 + s.y2 * s.y2 + dx * dx + dy * dy;
+  const Real twice = s.twice_area();
+  // All terms times A^2, so that a flat triangle costs no accuracy.
+  const Real half = Real(0.125 * modulus) * squares;
+  const Real product = Real(0.1875 * (modulus * modulus - e.lambda * e.lambda)) * twice * twice;
+  const Real root = sqrt(fabs(half * half - product));  // never negative but for rounding, where nu = 0
+  const Real shear = Real(0.25 * e.shear_modulus) * squares;
+  return Real(6) * larger(half + root, shear) / (area_density * twice);
+}
+
+}  // namespace udar

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "udar/model/state.hpp"
+#include "udar/model/model.hpp"
+
+namespace udar {
+
+/// Numerical failures: each finds the culprit and throws NumericalError with body, element or node, place, time, step
+/// size, likely cause and cure.
+
+/// An element has no area any more.
+[[noreturn]] void fail_inverted(const Model& model, const State& state);
+/// Something is not a number any more.
+[[noreturn]] void fail_not_finite(const Model& model, const State& state);
+/// The stable limit fell below a fixed step and the case says to stop then.
+[[noreturn]] void fail_unstable(const Model& model, const Clock& clock);
+/// The automatic step has become so small that the run would never end.
+[[noreturn]] void fail_collapsing_step(const Model& model, const State& state);
+/// The energy books are further apart than the case allows.
+[[noreturn]] void fail_energy(const Model& model, const State& state);
+
+}  // namespace udar

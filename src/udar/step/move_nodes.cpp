@@ -1,0 +1,28 @@
+#include "udar/step/stages.hpp"
+
+namespace udar {
+
+void advance_clock(State& state) {
+  Clock& clock = state.clock;
+  clock.second_step_before = clock.step_before;
+  clock.step_before = clock.last_step;
+  clock.last_step = clock.next_step;
+  clock.time.add(clock.next_step);
+  ++clock.step;
+  if (clock.step == 1) clock.smallest_step = clock.last_step;
+  clock.smallest_step = clock.last_step < clock.smallest_step ? clock.last_step : clock.smallest_step;
+  clock.largest_step = clock.last_step > clock.largest_step ? clock.last_step : clock.largest_step;
+}
+
+void move_nodes(const Model& model, State& state, Workspace& work) {
+  const double h = state.clock.last_step;
+  work.pool.for_each_block(model.node_blocks.size(), [&](std::size_t block) {
+    for (Index i = model.node_blocks[block].begin; i < model.node_blocks[block].end; ++i) {
+      NodeRecord& node = state.nodes[i];
+      node.x += h * node.vx;
+      node.y += h * node.vy;
+    }
+  });
+}
+
+}  // namespace udar

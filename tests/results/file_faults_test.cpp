@@ -1,0 +1,112 @@
+// The k-th call to the operating system fails, for every k. This program's own write, fsync, rename and close stand
+// before those of the C library: no second library and no special run are needed.
+
+#include <doctest/doctest.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+#include "tests/results/scratch.hpp"
+#include "udar/results/file.hpp"
+
+namespace {
+
+struct Fault {
+  int calls_left = -1;  // calls that still succeed; -1: no fault planned
+  int error = 0;
+  bool short_writes = false;
+
+  bool strikes() { return calls_left >= 0 && calls_left-- == 0; }
+};
+thread_local Fault fault;
+
+long call_or_fail(long number, long a, long b = 0, long c = 0) {
+  if (fault.strikes()) {
+    if (number == SYS_close) ::syscall(SYS_close, a);
+    errno = fault.error;
+    return -1;
+  }
+  return ::syscall(number, a, b, c);
+}
+
+}  // namespace
+
+extern "C" {
+ssize_t write(int file, const void* bytes, size_t size) {
+  const size_t asked = fault.short_writes && size > 3 ? 3 : size;
+  return call_or_fail(SYS_write, file, reinterpret_cast<long>(bytes), static_cast<long>(asked));
+}
+int fsync(int file) {
+  return static_cast<int>(call_or_fail(SYS_fsync, file));
+}
+int close(int file) {
+  return static_cast<int>(call_or_fail(SYS_close, file));
+}
+int rename(const char* from, const char* to) noexcept {
+  return static_cast<int>(call_or_fail(SYS_rename, reinterpret_cast<long>(from), reinterpret_cast<long>(to)));
+}
+}
+
+using namespace udar;
+
+namespace {
+
+/// What `write_file` throws when call `k` of its calls fails with `error`; "" where it succeeds.
+std::string failing_write(const std::filesystem::path& path, int k, int error) {
+  fault = {.calls_left = k, .error = error};
+  const std::string text = message_of<OutputError>([&] { write_file(path, "new content"); });
+  fault = {};
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("whatever call fails, the file is old or new, and the failure is reported") {
+  const Scratch folder;
+  const std::filesystem::path path = folder / "a.txt";
+  int failures = 0;
+  for (int k = 0; k < 8; ++k) {
+    write_file(path, "old content");
+    const std::string text = failing_write(path, k, ENOSPC);
+    const std::string found = read_file(path, 100);
+    CAPTURE(k);
+    CHECK_FALSE(std::filesystem::exists(folder / "a.txt.tmp"));
+    if (!text.empty()) {
+      ++failures;
+      CHECK(contains(text, "No space left on device; free space"));
+      CHECK((found == "old content" || k >= 4));  // write, fsync, close, rename; then fsync of the folder
+    } else {
+      CHECK(found == "new content");
+    }
+  }
+  CHECK(failures == 5);
+}
+
+TEST_CASE("an interrupted call and short writes lose nothing") {
+  const Scratch folder;
+  for (int k = 0; k < 6; ++k) {
+    if (k == 3) continue;  // rename is never interrupted
+    CHECK(failing_write(folder / "a.txt", k, EINTR) == "");
+    CHECK(read_file(folder / "a.txt", 100) == "new content");
+  }
+  fault = {.short_writes = true};
+  write_file(folder / "b.txt", "in pieces of three");
+  fault = {};
+  CHECK(read_file(folder / "b.txt", 100) == "in pieces of three");
+}
+
+TEST_CASE("a history that cannot be closed says so") {
+  const Scratch folder;
+  for (int k = 0; k < 3; ++k) {  // write, fsync, close
+    AppendFile file(folder / "log.txt");
+    file.write("text");
+    fault = {.calls_left = k, .error = EIO};
+    const std::string text = message_of<OutputError>([&] { file.close(); });
+    fault = {};
+    CHECK(contains(text, "the disk reports a fault"));
+  }
+}

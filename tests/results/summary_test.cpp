@@ -1,0 +1,90 @@
+#include "udar/results/summary.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "tests/results/scratch.hpp"
+
+using namespace udar;
+
+namespace {
+
+Summary example() {
+  Summary s;
+  s.version = "0.1.0";
+  s.case_name = "a \"short\" beam";
+  s.elements = 12800;
+  s.steps = 31250;
+  s.end_time = 0.1 + 0.2;
+  s.energy_error = 4e-5 / 3;
+  s.verdict = "good";
+  s.reasons = {"one", "two"};
+  s.stop_reason = "end_time";
+  s.masses["beam"] = 3.14;
+  s.ledger.kinetic = 1.0 / 3;
+  s.momentum.start = {0, -251.2};
+  s.time_step.limited_by = "beam element 1873";
+  s.histories["corner"]["displacement_y"] = {.min = -0.0418, .max = 0, .max_abs = 0.0418, .last = -0.04};
+  ContactSummary& stop = s.contacts["stop"];
+  stop.first_touch = 0;
+  stop.impulse = {1, 2};
+  stop.episodes = {{.first_touch = 0, .velocity_before = {0, -80}}, {.first_touch = 1e-3}};
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("a summary reads back equal") {
+  const Scratch folder;
+  const Summary written = example();
+  write_summary(folder / "summary.json", written);
+  const Summary read = read_summary(folder / "summary.json");
+  CHECK(to_json(read) == to_json(written));
+  CHECK(read.end_time == written.end_time);
+  CHECK(read.energy_error == written.energy_error);
+  CHECK(read.histories.at("corner").at("displacement_y").min == -0.0418);
+  CHECK(read.contacts.at("stop").episodes.at(0).velocity_before == Vec2{0, -80});
+  CHECK(read.reasons.size() == 2);
+}
+
+TEST_CASE("the names that scripts rely on") {
+  const auto json = nlohmann::json::parse(to_json(example()));
+  CHECK(json.at("schema") == 1);
+  for (const char* name : {"elements", "nodes", "steps", "threads", "wall_seconds", "element_steps_per_second",
+                           "end_time", "energy_error", "momentum_error", "verdict", "reasons", "stop_reason"}) {
+    CHECK(json.contains(name));
+  }
+  for (const char* name : {"min", "max", "max_abs", "last"}) {
+    CHECK(json.at("histories").at("corner").at("displacement_y").contains(name));
+  }
+  for (const char* name : {"first_touch", "last_separation", "duration", "duration_99", "impulse", "peak_force"}) {
+    CHECK(json.at("contacts").at("stop").contains(name));
+  }
+  CHECK(json.at("contacts").at("stop").at("episodes").size() == 2);
+}
+
+TEST_CASE("numbers that are none become null and come back as NaN") {
+  Summary s = example();
+  s.energy_error = std::numeric_limits<double>::infinity();
+  s.momentum_error = no_number;
+  const std::string text = to_json(s);
+  CHECK(nlohmann::json::parse(text).at("energy_error").is_null());
+  CHECK(std::isnan(summary_from_json(text).momentum_error));
+}
+
+TEST_CASE("a name that is not UTF-8 does not stop the summary") {
+  Summary s = example();
+  s.case_name = "caf\xe9";
+  CHECK_NOTHROW(summary_from_json(to_json(s)));
+}
+
+TEST_CASE("what is not a summary is refused") {
+  for (const char* text :
+       {"", "{", "[]", "{}", "{\"schema\": 2}", "{\"schema\": 1, \"steps\": \"many\"}",
+        "{\"schema\": 1, \"histories\": {\"a\": 3}}", "{\"schema\": 1, \"momentum\": {\"start\": [1]}}"}) {
+    CAPTURE(text);
+    CHECK_THROWS_AS(summary_from_json(text), OutputError);
+  }
+}

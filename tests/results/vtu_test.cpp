@@ -1,0 +1,163 @@
+#include "udar/results/vtu.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "tests/results/scratch.hpp"
+#include "udar/results/file.hpp"
+#include "udar/results/pvd.hpp"
+
+using namespace udar;
+
+namespace {
+
+/// Columns x rows squares of two triangles each, with every kind of field.
+VtuGrid example(int columns, int rows) {
+  std::vector<Vec2> points;
+  for (int j = 0; j <= rows; ++j) {
+    for (int i = 0; i <= columns; ++i) points.push_back({0.1 * i, 0.1 * j});
+  }
+  std::vector<std::array<std::int32_t, 3>> triangles;
+  for (int j = 0; j < rows; ++j) {
+    for (int i = 0; i < columns; ++i) {
+      const std::int32_t a = j * (columns + 1) + i;
+      triangles.push_back({a, a + 1, a + columns + 2});
+      triangles.push_back({a, a + columns + 2, a + columns + 1});
+    }
+  }
+  VtuGrid grid = triangle_grid(1.25e-3, points, triangles);
+  std::vector<double> numbers;
+  std::vector<std::int32_t> names;
+  std::vector<std::uint8_t> flags;
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    numbers.push_back(std::sin(static_cast<double>(i)));
+    names.push_back(static_cast<std::int32_t>(i) - 3);
+    flags.push_back(i % 3 == 0);
+  }
+  grid.point_fields.push_back(vector_field("velocity", "m/s", points));
+  grid.cell_fields.push_back(scalar_field("plastic_strain", "", numbers));
+  grid.cell_fields.push_back({"exact", 1, numbers});
+  grid.cell_fields.push_back(number_field("element", names));
+  grid.cell_fields.push_back(flag_field("flows now", flags));
+  return grid;
+}
+
+std::string replaced(std::string text, std::string_view from, std::string_view to) {
+  const std::size_t at = text.find(from);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, from.size(), to);
+}
+
+}  // namespace
+
+TEST_CASE("a frame reads back equal, over many compressed blocks and over none") {
+  const Scratch folder;
+  for (const auto& [columns, rows] : {std::pair{0, 0}, {1, 1}, {16, 64}, {120, 60}}) {
+    const VtuGrid grid = example(columns, rows);
+    write_vtu(folder / "a.vtu", grid);
+    CHECK(read_vtu(folder / "a.vtu") == grid);
+  }
+  CHECK(parse_vtu(to_vtu({})) == VtuGrid{});
+}
+
+TEST_CASE("outlines of obstacles read back equal") {
+  VtuGrid grid;
+  grid.add_polygon(std::vector<Vec2>{{0, 0}, {1, 0}, {1, 1}, {0, 1}});
+  grid.points.push_back({5, 5});
+  grid.add_cell(VtuCell::line, std::array{0, 4});
+  CHECK(parse_vtu(to_vtu(grid)) == grid);
+}
+
+TEST_CASE("field names are safe in ParaView and tell the unit") {
+  CHECK(field_name("velocity", "m/s") == "velocity_m_per_s");
+  CHECK(field_name("acceleration", "m/s^2") == "acceleration_m_per_s2");
+  CHECK(field_name("flows now", "") == "flows_now");
+  CHECK(field_name("a<b>\"&", "") == "a_b___");
+}
+
+TEST_CASE("numbers beyond 32 bits stay finite in fields") {
+  const VtuArray field = scalar_field("x", "", std::vector<double>{1e300, -1e300, std::nan("")});
+  const auto& values = std::get<std::vector<float>>(field.values);
+  CHECK(values[0] == std::numeric_limits<float>::max());
+  CHECK(values[1] == -std::numeric_limits<float>::max());
+  CHECK(std::isnan(values[2]));
+}
+
+TEST_CASE("a field of the wrong length is not written") {
+  VtuGrid grid = example(1, 1);
+  grid.cell_fields.push_back({"short", 1, std::vector<double>{1}});
+  CHECK(contains(message_of<OutputError>([&] { to_vtu(grid); }), "field `short`"));
+}
+
+TEST_CASE("headers that lie are refused before memory is taken") {
+  const std::string good = to_vtu(example(4, 2));
+  const auto refused = [&](std::string_view from, std::string_view to) {
+    return contains(message_of<OutputError>([&] { parse_vtu(replaced(good, from, to)); }), "field file");
+  };
+  CHECK(refused("NumberOfPoints=\"15\"", "NumberOfPoints=\"18446744073709551615\""));
+  CHECK(refused("NumberOfPoints=\"15\"", "NumberOfPoints=\"1000000000000\""));
+  CHECK(refused("NumberOfPoints=\"15\"", "NumberOfPoints=\"-15\""));
+  CHECK(refused("NumberOfPoints=\"15\"", "NumberOfPoints=\"14\""));
+  CHECK(refused("NumberOfCells=\"16\"", "NumberOfCells=\"99999\""));
+  CHECK(refused("NumberOfComponents=\"3\"", "NumberOfComponents=\"4000000000\""));
+  CHECK(refused("NumberOfComponents=\"3\"", "NumberOfComponents=\"0\""));
+  CHECK(refused("offset=\"0\"", "offset=\"99999999\""));
+  CHECK(refused("type=\"Int32\"", "type=\"Int64\""));
+  CHECK(refused("vtkZLibDataCompressor", "vtkLZ4DataCompressor"));
+  CHECK(refused("<AppendedData", "<OtherData"));
+  CHECK(refused("connectivity", "conectivity"));
+}
+
+TEST_CASE("cells that name missing points are refused") {
+  VtuGrid grid = example(1, 1);
+  grid.corners[0] = 4;
+  CHECK_THROWS_AS(parse_vtu(to_vtu(grid)), OutputError);
+  grid.corners[0] = -1;
+  CHECK_THROWS_AS(parse_vtu(to_vtu(grid)), OutputError);
+  grid = example(1, 1);
+  grid.ends = {5, 3};
+  CHECK_THROWS_AS(parse_vtu(to_vtu(grid)), OutputError);
+}
+
+TEST_CASE("cut and damaged frames are refused or read, never a crash") {
+  const std::string good = to_vtu(example(4, 2));
+  for (std::size_t size = 0; size < good.size(); size += 7) {
+    try {
+      parse_vtu(std::string_view(good).substr(0, size));
+    } catch (const OutputError&) {
+    }
+  }
+  std::mt19937 random(1);
+  for (int trial = 0; trial < 3000; ++trial) {
+    std::string bad = good;
+    for (int flips = 0; flips < 3; ++flips) bad[random() % bad.size()] = static_cast<char>(random());
+    try {
+      parse_vtu(bad);
+    } catch (const OutputError&) {
+    }
+  }
+}
+
+TEST_CASE("the index grows by frames and reads back") {
+  const Scratch folder;
+  PvdIndex index(folder / "fields.pvd");
+  index.add({{0, 0, "fields/bodies_000000.vtu"}, {0, 1, "fields/obstacles_000000.vtu"}});
+  index.add({{2e-5 / 3, 0, "fields/bodies_000001.vtu"}});
+  CHECK(read_pvd(folder / "fields.pvd") == index.entries());
+  CHECK(index.entries().size() == 3);
+}
+
+TEST_CASE("an index that is none, or leads out of its folder, is refused") {
+  const auto with_file = [](const char* file) { return to_pvd({{0, 0, file}}); };
+  CHECK_NOTHROW(parse_pvd(with_file("a&<b>.vtu")));
+  CHECK(parse_pvd(with_file("a&<b>.vtu"))[0].file == "a&<b>.vtu");
+  CHECK_THROWS_AS(parse_pvd(with_file("/etc/passwd")), OutputError);
+  CHECK_THROWS_AS(parse_pvd(with_file("a/../../b")), OutputError);
+  CHECK_THROWS_AS(parse_pvd(with_file("")), OutputError);
+  CHECK_THROWS_AS(parse_pvd("<DataSet timestep=\"x\""), OutputError);
+  CHECK_THROWS_AS(parse_pvd("<Collection><DataSet timestep=\"x\" file=\"a\"/>"), OutputError);
+  CHECK_THROWS_AS(parse_pvd("hello"), OutputError);
+}
