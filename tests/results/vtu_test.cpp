@@ -111,6 +111,19 @@ TEST_CASE("headers that lie are refused before memory is taken") {
   CHECK(refused("connectivity", "conectivity"));
 }
 
+TEST_CASE("a small file cannot unpack to a huge one") {
+  VtuGrid grid;
+  grid.points.resize(2'000'000);  // 48 MB of zeros in some 200 kB
+  const std::string good = to_vtu(grid);
+  CHECK(parse_vtu(good).points.size() == grid.points.size());
+  const std::size_t tag = good.find("<DataArray type=\"Float64\" Name=\"Points\"");
+  const std::string field = good.substr(tag, good.find('>', tag) + 1 - tag);
+  std::string fields = "<PointData>";
+  for (int i = 0; i < 100; ++i) fields += field;
+  CHECK(contains(message_of<OutputError>([&] { parse_vtu(replaced(good, "<PointData>", fields)); }),
+                 "a count is larger"));
+}
+
 TEST_CASE("cells that name missing points are refused") {
   VtuGrid grid = example(1, 1);
   grid.corners[0] = 4;

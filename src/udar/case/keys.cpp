@@ -125,9 +125,9 @@ const Schema<Selection>& selection_schema() {
       .doc = "Nodes or edges of the undeformed body, chosen in one of four ways.",
       .keys = {
           key("side", &S::side, NameKind{"name of a side", "left", true}, "a side that the mesh generator named"),
-          key("box", &S::box, PointsKind{any_length, 0, 2}, "two opposite corners: all that is inside or on the sides",
+          key("box", &S::box, PointsKind{any_length, 2, 2, true}, "two opposite corners: all that is inside or on the sides",
               Need::optional, "[[\"0 cm\", \"0 cm\"], [\"4 cm\", \"3 cm\"]]"),
-          key("line", &S::line, PointsKind{any_length, 0, 2}, "two ends: all that is on the line"),
+          key("line", &S::line, PointsKind{any_length, 2, 2, true}, "two ends: all that is on the line"),
           key("point", &S::point, place, "the nearest node; not for edges"),
       }};
   return schema;
@@ -167,8 +167,8 @@ const Schema<SupportCase>& support_schema() {
       .keys = {
           key_at<S>("body", [](auto& s) -> auto& { return s.nodes.body; }, body_name, "whose nodes", required),
           key("nodes", &S::nodes, InlineTableKind<Selection>{selection_schema}, "which of them", required, "{ side = \"left\" }"),
-          key("move_x", &S::move_x, moved, "displacement along x; \"0 m\" holds the nodes"),
-          key("move_y", &S::move_y, moved, "displacement along y"),
+          key("move_x", &S::move_x, moved, "displacement along x; \"0 m\" holds the nodes", Need::optional, "\"0 m\""),
+          key("move_y", &S::move_y, moved, "displacement along y", Need::optional, "\"0 m\""),
           turn,
       }};
   return schema;

@@ -110,6 +110,11 @@ std::string QuantityKind::write(double value) const {
 
 // --- several quantities
 
+std::string VectorKind::example() const {
+  const std::string x = each.limits.hold(0) ? each.write(0) : each.example();
+  return "[" + x + ", " + each.example() + "]";
+}
+
 void VectorKind::read(const Value& value, const std::string& path, Vec2& out, Mistakes& mistakes) const {
   if (value.kind != Kind::list) return wrong_kind(value, path, "[x, y]", example(), mistakes);
   if (value.items.size() != 2) {
@@ -140,8 +145,8 @@ std::string VectorKind::write(const Vec2& value) const {
 }
 
 std::string PointsKind::describe() const {
-  const std::string count = least == most ? fmt::format("{}", least) : least > 0 ? fmt::format("at least {}", least) : "some";
-  return count + " points [x, y], " + each.describe() + " each";
+  const std::string count = least == most ? fmt::format("{} ", least) : least > 1 ? fmt::format("at least {} ", least) : "";
+  return count + "points [x, y], each " + each.describe();
 }
 
 std::string PointsKind::example() const {
@@ -159,6 +164,7 @@ void PointsKind::read(const Value& value, const std::string& path, std::vector<V
 }
 
 void PointsKind::check(const std::vector<Vec2>& value, const std::string& path, Mistakes& mistakes) const {
+  if (value.empty() && may_be_empty) return;
   if (value.size() < least || value.size() > most) {
     const std::string needed = fmt::format("{}{}", least == most ? "" : "at least ", least);
     mistakes.add_unless_touched({path, fmt::format("wrong number of points for `{}`", key_of(path)),

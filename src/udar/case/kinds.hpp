@@ -44,8 +44,8 @@ struct QuantityKind {
 struct VectorKind {
   QuantityKind each;
 
-  [[nodiscard]] std::string describe() const { return "[x, y]: " + each.describe() + " each"; }
-  [[nodiscard]] std::string example() const { return "[" + each.example() + ", " + each.example() + "]"; }
+  [[nodiscard]] std::string describe() const { return "[x, y], each " + each.describe(); }
+  [[nodiscard]] std::string example() const;
   void read(const Value& value, const std::string& path, Vec2& out, Mistakes& mistakes) const;
   void read(const Value& value, const std::string& path, std::optional<Vec2>& out, Mistakes& mistakes) const;
   void check(const Vec2& value, const std::string& path, Mistakes& mistakes) const;
@@ -54,11 +54,12 @@ struct VectorKind {
   [[nodiscard]] std::string write(const std::optional<Vec2>& value) const { return value ? write(*value) : ""; }
 };
 
-/// Points; none where the key may be left out.
+/// Points, as many as are allowed or, where the key may be left out, none.
 struct PointsKind {
   QuantityKind each;
-  std::size_t least = 0;
+  std::size_t least = 1;
   std::size_t most = static_cast<std::size_t>(-1);
+  bool may_be_empty = false;
 
   [[nodiscard]] std::string describe() const;
   [[nodiscard]] std::string example() const;
@@ -71,7 +72,7 @@ struct PointsKind {
 struct ListKind {
   QuantityKind each;
 
-  [[nodiscard]] std::string describe() const { return "list, " + each.describe() + " each"; }
+  [[nodiscard]] std::string describe() const { return "list, each " + each.describe(); }
   [[nodiscard]] std::string example() const { return "[" + each.example() + "]"; }
   void read(const Value& value, const std::string& path, std::vector<double>& out, Mistakes& mistakes) const;
   void check(const std::vector<double>& value, const std::string& path, Mistakes& mistakes) const;

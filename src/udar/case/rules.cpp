@@ -182,18 +182,9 @@ void check_selection(const Selection& s, const std::string& path, bool edges, Mi
     mistakes.add_unless_touched({join(path, "point"), "a point selects no edges", "a traction or pressure acts on edges",
                                  "use side, box or line, or a force on nodes"});
   }
-  const auto two = [&](const std::vector<Vec2>& points, const std::string& key, const std::string& what) {
-    if (points.empty()) return;
-    if (points.size() != 2) {
-      mistakes.add_unless_touched({join(path, key), fmt::format("wrong number of points for `{}`", key),
-                                   fmt::format("there are {}; 2 are needed", points.size()),
-                                   fmt::format("give {}", what)});
-    } else if (points[0] == points[1] && key == "line") {
-      mistakes.add_unless_touched({join(path, key), "the line has no length", "", "give two different ends, or a point"});
-    }
-  };
-  two(s.box, "box", "two opposite corners");
-  two(s.line, "line", "its two ends");
+  if (s.line.size() == 2 && s.line[0] == s.line[1]) {
+    mistakes.add_unless_touched({join(path, "line"), "the line has no length", "", "give two different ends, or a point"});
+  }
 }
 
 void check_supports(const Case& c, const Known& bodies, Mistakes& mistakes) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "udar/base/text.hpp"
 #include "udar/case/schema.hpp"
 
 namespace udar {
@@ -117,6 +118,7 @@ template <class Owner>
 void describe_table(const Schema<Owner>& schema, const std::string& path, const std::string& header,
                     std::vector<TableText>& texts) {
   TableText table{header, path, schema.doc, {}, {}};
+  for (const auto& group : schema.one_of) table.doc += " Exactly one of " + one_of(group) + " is given.";
   if (schema.alternatives) table.keys.push_back(choice_text(*schema.alternatives));
   for (const Key<Owner>& key : schema.keys) {
     if (!key.is_section) table.keys.push_back(key.text);

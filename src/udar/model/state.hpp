@@ -21,7 +21,8 @@ struct alignas(32) NodeRecord {
 
 /// What one obstacle has done to all bodies together.
 struct ObstacleBook {
-  ForceBook total;         ///< contact, friction and damping
+  ForceBook total;  ///< contact, friction and damping
+  ForceBook normal;  ///< contact springs and damping: without friction
   std::uint64_t touching = 0;  ///< nodes now
 };
 

@@ -79,7 +79,7 @@ Account enter_contacts(const Model& model, State& state, const Booking& booking)
   const std::size_t count = model.contact_nodes.size();
   for (std::size_t o = 0; o < model.obstacles.size(); ++o) {
     const Vec2 velocity = model.obstacles[o].velocity;
-    Account total;
+    Account total, pressing;
     for (std::size_t c = 0; c < count && state.obstacles[o].touching > 0; ++c) {
       const SpringState& springs = state.contacts[o * count + c];
       if (springs.touches == 0) continue;
@@ -88,9 +88,12 @@ Account enter_contacts(const Model& model, State& state, const Booking& booking)
       normal.add(springs.normal_force, before, after);
       friction.add(springs.friction_force, before, after);
       damping.add(springs.damping_force, before, after);
-      total.add(springs.normal_force + springs.friction_force + springs.damping_force, before, after);
+      const Vec2 pressing_force = springs.normal_force + springs.damping_force;
+      pressing.add(pressing_force, before, after);
+      total.add(pressing_force + springs.friction_force, before, after);
     }
     booking.enter(total, state.obstacles[o].total);
+    booking.enter(pressing, state.obstacles[o].normal);
     obstacle_work.add(total.force, velocity, velocity);
   }
   booking.enter(normal, state.ledger.book(ForceKind::contact));

@@ -2,9 +2,11 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "udar/base/text.hpp"
@@ -143,9 +145,8 @@ class UnitReader {
   }
 
   static void multiply_by(Unit& unit, const Unit& factor, int sign) {
-    const bool divide = sign < 0;
-    unit.scale.numerator *= divide ? factor.scale.denominator : factor.scale.numerator;
-    unit.scale.denominator *= divide ? factor.scale.numerator : factor.scale.denominator;
+    const Scale& s = factor.scale;
+    unit.scale = unit.scale * (sign < 0 ? Scale{s.denominator, s.numerator} : s);
     unit.dimension = unit.dimension + sign * factor.dimension;
   }
 
@@ -178,7 +179,7 @@ class UnitReader {
     return tl::unexpected(error);
   }
 
-  /// The same letters in other capitals ("mpa") come first, then the nearest spelling.
+  /// The same letters in other capitals ("mpa") come first, then in another order ("kfg"), then the nearest spelling.
   static std::string nearest_unit(std::string_view name) {
     const auto lower = [](std::string_view text) {
       std::string out(text);
@@ -187,6 +188,9 @@ class UnitReader {
     };
     for (const std::string& known : unit_names()) {
       if (lower(known) == lower(name)) return known;
+    }
+    for (const std::string& known : unit_names()) {
+      if (known.size() > 1 && std::ranges::is_permutation(known, name)) return known;
     }
     return nearest_word(name, unit_names());
   }
@@ -202,7 +206,7 @@ std::string repaired(std::string_view number, std::string_view unit, Dimension n
   const bool technical = unit.find("gf") != std::string_view::npos || unit.find("tf") != std::string_view::npos;
   std::vector<std::string> candidates;
   if (technical) candidates = {fmt::format("{}/cm^2", unit), fmt::format("{}/cm", unit)};
-  for (const char* end : {"/s", "/s^2", "^2", "/m", "/m^2", "/m^3", "^3"}) candidates.push_back(fmt::format("{}{}", unit, end));
+  for (const char* end : {"^2", "^3", "/s", "/s^2", "/m", "/m^2", "/m^3"}) candidates.push_back(fmt::format("{}{}", unit, end));
   for (const char sign : {'^', '/'}) {
     if (const auto at = unit.rfind(sign); at != std::string_view::npos) candidates.emplace_back(unit.substr(0, at));
   }
@@ -236,19 +240,39 @@ Expected<Split> split(std::string_view text) {
   return Split{std::string(number), std::string(rest)};
 }
 
-Expected<Quantity> evaluate(const Split& parts) {
-  const char* begin = parts.number.data();
-  const char* end = begin + parts.number.size();
+std::optional<double> number_of(std::string_view text) {
   double value = 0;
-  if (std::from_chars(*begin == '+' ? begin + 1 : begin, end, value).ec != std::errc{}) {
-    return tl::unexpected(UnitError{"impossible value", "this number is too large or too small", ""});
+  if (text.starts_with('+')) text.remove_prefix(1);
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+/// The number times 10^k, rounded once: "0.52 ms" becomes the double nearest to 0.00052, as a program would write it.
+std::optional<double> shifted(std::string_view number, int k) {
+  const auto e = number.find_first_of("eE");
+  int exponent = 0;
+  if (e != std::string_view::npos) {
+    std::string_view digits = number.substr(e + 1);
+    if (digits.starts_with('+')) digits.remove_prefix(1);
+    std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
+    exponent = std::clamp(exponent, -9999, 9999);  // of 0e999999 only
   }
-  if (parts.unit.empty()) return Quantity{value, dimension::number, true};
+  return number_of(fmt::format("{}e{}", number.substr(0, e), exponent + k));
+}
+
+Expected<Quantity> evaluate(const Split& parts) {
+  const std::optional<double> value = number_of(parts.number);
+  if (!value) return tl::unexpected(UnitError{"impossible value", "this number is too large or too small", ""});
+  if (parts.unit.empty()) return Quantity{*value, dimension::number, true};
   const Expected<Unit> unit = UnitReader(parts.number, parts.unit).read();
   if (!unit) return tl::unexpected(unit.error());
-  const double si = unit->scale.apply(value);
-  if (!std::isfinite(si)) return tl::unexpected(UnitError{"impossible value", "this is too large in SI units", ""});
-  return Quantity{si, unit->dimension, false};
+  const std::optional<int> k = unit->scale.power_of_ten();
+  const std::optional<double> si = k ? shifted(parts.number, *k) : unit->scale.apply(*value);
+  if (!si || !std::isfinite(*si)) {
+    return tl::unexpected(UnitError{"impossible value", "this is too large or too small in SI units", ""});
+  }
+  return Quantity{*si, unit->dimension, false};
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 #include "udar/units/unit_table.hpp"
 
+#include <cmath>
+#include <cstdint>
 #include <numbers>
-#include <span>
+#include <numeric>
 
 namespace udar {
 namespace {
@@ -65,15 +67,35 @@ constexpr NamedUnit units[] = {
 
 }  // namespace
 
+Scale operator*(Scale a, Scale b) {
+  Scale out{a.numerator * b.numerator, a.denominator * b.denominator};
+  constexpr double largest_exact = 0x1p53;
+  const auto whole = [](double v) { return v == std::floor(v) && v <= largest_exact; };
+  if (!whole(out.numerator) || !whole(out.denominator)) return out;  // pi, or too many factors
+  const auto divisor = static_cast<double>(
+      std::gcd(static_cast<std::int64_t>(out.numerator), static_cast<std::int64_t>(out.denominator)));
+  return {out.numerator / divisor, out.denominator / divisor};
+}
+
+std::optional<int> Scale::power_of_ten() const {
+  int k = 0;
+  double rest = numerator;
+  for (; rest > 1 && std::fmod(rest, 10) == 0; rest /= 10) ++k;
+  if (rest != 1) return std::nullopt;
+  for (rest = denominator; rest > 1 && std::fmod(rest, 10) == 0; rest /= 10) --k;
+  if (rest != 1) return std::nullopt;
+  return k;
+}
+
 std::optional<Unit> find_unit(std::string_view name) {
   for (const NamedUnit& u : units) {
-    if (u.name == name) return Unit{u.scale, u.dimension};
+    if (u.name == name) return Unit{u.scale * Scale{}, u.dimension};
   }
   for (const Prefix& p : prefixes) {
     if (name.empty() || name.front() != p.letter) continue;
     for (const NamedUnit& u : units) {
       if (u.name != name.substr(1) || u.prefixes.find(p.letter) == std::string_view::npos) continue;
-      return Unit{{u.scale.numerator * p.scale.numerator, u.scale.denominator * p.scale.denominator}, u.dimension};
+      return Unit{u.scale * p.scale, u.dimension};
     }
   }
   return std::nullopt;

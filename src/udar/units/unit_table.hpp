@@ -9,13 +9,16 @@
 
 namespace udar {
 
-/// How many SI units one unit is, as a fraction of two numbers without rounding: 0.25 cm is 0.25 / 100, the double
-/// nearest to 0.0025, which 0.25 * 0.01 need not be.
+/// How many SI units one unit is, as a fraction of two numbers without rounding and without common divisor.
 struct Scale {
   double numerator = 1;
   double denominator = 1;
   [[nodiscard]] double apply(double value) const { return value * numerator / denominator; }
+  /// k where the scale is 10^k.
+  [[nodiscard]] std::optional<int> power_of_ten() const;
 };
+
+Scale operator*(Scale a, Scale b);
 
 struct Unit {
   Scale scale;

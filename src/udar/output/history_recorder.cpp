@@ -1,0 +1,80 @@
+#include "udar/output/history_recorder.hpp"
+
+#include <cmath>
+
+namespace udar {
+namespace {
+
+void take(HistorySummary& extremes, double value, double time) {
+  extremes.last = value;
+  if (!(value >= extremes.min)) {
+    extremes.min = value;
+    extremes.time_of_min = time;
+  }
+  if (!(value <= extremes.max)) {
+    extremes.max = value;
+    extremes.time_of_max = time;
+  }
+  if (!(std::fabs(value) <= extremes.max_abs)) extremes.max_abs = std::fabs(value);
+}
+
+}  // namespace
+
+HistoryRecorder::HistoryRecorder(const Model& model, const std::optional<std::filesystem::path>& folder)
+    : interval_(model.output.histories_every) {
+  for (Observer& observer : make_observers(model)) {
+    Watched w{std::move(observer), {}, {}, {}};
+    w.values.resize(w.observer.columns.size());
+    w.extremes.resize(w.observer.columns.size());
+    if (folder) {
+      std::vector<Column> columns{{"time", "s"}};
+      columns.insert(columns.end(), w.observer.columns.begin(), w.observer.columns.end());
+      w.file.emplace(*folder / (w.observer.name + ".csv"), columns);
+    }
+    watched_.push_back(std::move(w));
+  }
+}
+
+void HistoryRecorder::record(const State& state) {
+  const double time = state.clock.time.value();
+  for (Watched& w : watched_) {
+    w.observer.measure(state, w.values);
+    if (time < w.observer.window.begin || time > w.observer.window.end) continue;
+    for (std::size_t q = 0; q < w.values.size(); ++q) take(w.extremes[q], w.values[q], time);
+  }
+  if (time < static_cast<double>(samples_) * interval_) return;
+  samples_ = static_cast<std::uint64_t>(time / interval_) + 1;
+  last_written_step_ = state.clock.step;
+  write_rows(time);
+}
+
+void HistoryRecorder::write_rows(double time) {
+  for (Watched& w : watched_) {
+    if (!w.file) continue;
+    row_.assign(1, time);
+    row_.insert(row_.end(), w.values.begin(), w.values.end());
+    w.file->write_row(row_);
+  }
+}
+
+void HistoryRecorder::close(const State& state) {
+  if (state.clock.step > 0 && last_written_step_ != state.clock.step) {
+    last_written_step_ = state.clock.step;
+    write_rows(state.clock.time.value());
+  }
+  for (Watched& w : watched_) {
+    if (w.file) w.file->close();
+  }
+}
+
+std::map<std::string, std::map<std::string, HistorySummary>> HistoryRecorder::summary() const {
+  std::map<std::string, std::map<std::string, HistorySummary>> all;
+  for (const Watched& w : watched_) {
+    for (std::size_t q = 0; q < w.extremes.size(); ++q) {
+      all[w.observer.name][w.observer.columns[q].name] = w.extremes[q];
+    }
+  }
+  return all;
+}
+
+}  // namespace udar

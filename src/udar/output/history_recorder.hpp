@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "udar/output/observer.hpp"
+#include "udar/results/summary.hpp"
+
+namespace udar {
+
+/// Takes every observer's values in every step for the extremes, and at the sampling interval for the history files.
+class HistoryRecorder {
+ public:
+  /// Histories go to `folder`/<observer>.csv; with no folder only extremes are kept.
+  HistoryRecorder(const Model& model, const std::optional<std::filesystem::path>& folder);
+
+  /// To be called at t_0 and after every step.
+  void record(const State& state);
+  /// Writes the last row, if it is not yet there, and closes the files. Throws OutputError.
+  void close(const State& state);
+
+  [[nodiscard]] std::map<std::string, std::map<std::string, HistorySummary>> summary() const;
+
+ private:
+  struct Watched {
+    Observer observer;
+    std::vector<double> values;
+    std::vector<HistorySummary> extremes;
+    std::optional<HistoryWriter> file;
+  };
+  void write_rows(double time);
+
+  double interval_;
+  std::uint64_t samples_ = 0;  ///< rows so far: sample k is due at k times the interval
+  std::uint64_t last_written_step_ = 0;
+  std::vector<Watched> watched_;
+  std::vector<double> row_;
+};
+
+}  // namespace udar

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "udar/model/model.hpp"
+#include "udar/model/state.hpp"
+#include "udar/results/histories.hpp"
+
+namespace udar {
+
+/// One thing that is watched: it measures its quantities at t_n from the state, without changing it.
+struct Observer {
+  std::string name;
+  std::vector<Column> columns;
+  ObserverWindow window;
+  /// Fills one value for each column.
+  std::function<void(const State&, std::span<double>)> measure;
+};
+
+/// A node: displacement, velocity, acceleration.
+Observer observe_node(const Model& model, const NodeObserver& node);
+/// An element: stresses in the fixed axes, principal stresses (largest first, the out-of-plane one among them),
+/// largest shear stress, plastic strain, whether it flows.
+Observer observe_element(const Model& model, const ElementObserver& element);
+/// Nodes taken together: centre of mass, its velocity and acceleration (sum of forces over mass, unfiltered), momentum,
+/// spin momentum about the centre of mass.
+Observer observe_region(const Model& model, const RegionObserver& region);
+Observer observe_body(const Model& model, const Body& body);
+/// Force and impulse of an obstacle on the bodies, and how many nodes touch.
+Observer observe_obstacle(const Model& model, std::size_t obstacle);
+/// Sum of the reactions at a support.
+Observer observe_support(const Model& model, std::size_t support);
+/// Energy by term; momentum and impulses by term.
+Observer observe_energy(const Model& model);
+Observer observe_momentum(const Model& model);
+
+/// Everything the model asks for, and what is always watched: bodies, obstacles, supports, energy, momentum.
+std::vector<Observer> make_observers(const Model& model);
+
+/// Elastic energy from the stresses themselves, s : C^-1 : s / 2 over the volume now, J.
+double stored_elastic_energy(const Model& model, const State& state);
+
+/// Principal stresses, largest first, Pa.
+std::array<double, 3> principal_stresses(const State& state, Index element);
+
+}  // namespace udar

@@ -1,0 +1,172 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "udar/output/observer.hpp"
+
+namespace udar {
+namespace {
+
+const ObserverWindow always{0, std::numeric_limits<double>::infinity()};
+
+Vec2 place(const State& state, Index node) { return {state.nodes[node].x, state.nodes[node].y}; }
+
+/// Nodes taken together, at t_n.
+struct Together {
+  Vec2 position{};      // m, of the centre of mass
+  Vec2 momentum{};      // kg m/s
+  Vec2 acceleration{};  // m/s2
+  double spin = 0;      // kg m2/s, about the centre of mass
+};
+
+template <class Nodes>
+Together together(const Model& model, const State& state, const Nodes& nodes, double mass) {
+  Together sum;
+  for (const Index i : nodes) {
+    const Vec2 x = place(state, i);
+    const Vec2 p = model.mass[i] * velocity(state, i);
+    sum.position += model.mass[i] * x;
+    sum.momentum += p;
+    sum.acceleration += model.mass[i] * state.acceleration[i];
+    sum.spin += cross(x, p);
+  }
+  sum.position *= 1 / mass;
+  sum.acceleration *= 1 / mass;
+  sum.spin -= cross(sum.position, sum.momentum);
+  return sum;
+}
+
+const std::vector<Column> together_columns{{"position_x", "m"},       {"position_y", "m"},
+                                           {"velocity_x", "m/s"},     {"velocity_y", "m/s"},
+                                           {"acceleration_x", "m/s^2"}, {"acceleration_y", "m/s^2"},
+                                           {"momentum_x", "kg m/s"},  {"momentum_y", "kg m/s"},
+                                           {"spin", "kg m^2/s"}};
+
+void fill(const Together& sum, double mass, std::span<double> out) {
+  const Vec2 v = (1 / mass) * sum.momentum;
+  const std::array values{sum.position.x,     sum.position.y, v.x,           v.y, sum.acceleration.x, sum.acceleration.y,
+                          sum.momentum.x, sum.momentum.y, sum.spin};
+  std::copy(values.begin(), values.end(), out.begin());
+}
+
+}  // namespace
+
+std::array<double, 3> principal_stresses(const State& state, Index e) {
+  const double centre = 0.5 * (state.stress_xx[e] + state.stress_yy[e]);
+  const double half = 0.5 * (state.stress_xx[e] - state.stress_yy[e]);
+  const double radius = std::sqrt(half * half + state.stress_xy[e] * state.stress_xy[e]);
+  std::array<double, 3> p{centre + radius, centre - radius, state.stress_zz[e]};
+  std::sort(p.begin(), p.end(), std::greater<>());
+  return p;
+}
+
+Observer observe_node(const Model& model, const NodeObserver& node) {
+  return {node.name,
+          {{"displacement_x", "m"},
+           {"displacement_y", "m"},
+           {"velocity_x", "m/s"},
+           {"velocity_y", "m/s"},
+           {"acceleration_x", "m/s^2"},
+           {"acceleration_y", "m/s^2"}},
+          node.window,
+          [rest = model.rest[node.node], i = node.node](const State& state, std::span<double> out) {
+            const Vec2 u = place(state, i) - rest;
+            const Vec2 v = velocity(state, i);
+            const Vec2 a = state.acceleration[i];
+            const std::array values{u.x, u.y, v.x, v.y, a.x, a.y};
+            std::copy(values.begin(), values.end(), out.begin());
+          }};
+}
+
+Observer observe_element(const Model&, const ElementObserver& element) {
+  return {element.name,
+          {{"stress_x", "Pa"},
+           {"stress_y", "Pa"},
+           {"stress_xy", "Pa"},
+           {"stress_z", "Pa"},
+           {"principal_1", "Pa"},
+           {"principal_2", "Pa"},
+           {"principal_3", "Pa"},
+           {"max_shear", "Pa"},
+           {"plastic_strain", ""},
+           {"flows", ""}},
+          element.window,
+          [e = element.element](const State& state, std::span<double> out) {
+            const auto p = principal_stresses(state, e);
+            const std::array values{state.stress_xx[e],
+                                    state.stress_yy[e],
+                                    state.stress_xy[e],
+                                    state.stress_zz[e],
+                                    p[0],
+                                    p[1],
+                                    p[2],
+                                    0.5 * (p[0] - p[2]),
+                                    state.plastic_strain[e],
+                                    state.plastic_power[e] > 0 ? 1.0 : 0.0};
+            std::copy(values.begin(), values.end(), out.begin());
+          }};
+}
+
+Observer observe_region(const Model& model, const RegionObserver& region) {
+  return {region.name, together_columns, region.window, [&model, &region](const State& state, std::span<double> out) {
+            fill(together(model, state, region.nodes, region.mass), region.mass, out);
+          }};
+}
+
+Observer observe_body(const Model& model, const Body& body) {
+  std::vector<Index> nodes(body.node_end - body.node_begin);
+  std::iota(nodes.begin(), nodes.end(), body.node_begin);
+  return {body.name, together_columns, always,
+          [&model, nodes = std::move(nodes), mass = body.mass](const State& state, std::span<double> out) {
+            fill(together(model, state, nodes, mass), mass, out);
+          }};
+}
+
+Observer observe_obstacle(const Model& model, std::size_t obstacle) {
+  return {model.obstacles[obstacle].name,
+          {{"force_x", "N"}, {"force_y", "N"}, {"impulse_x", "N s"}, {"impulse_y", "N s"}, {"touching_nodes", ""}},
+          always,
+          [obstacle](const State& state, std::span<double> out) {
+            const ObstacleBook& book = state.obstacles[obstacle];
+            const Vec2 impulse = book.total.impulse();
+            const std::array values{book.total.force.x, book.total.force.y, impulse.x, impulse.y,
+                                    static_cast<double>(book.touching)};
+            std::copy(values.begin(), values.end(), out.begin());
+          }};
+}
+
+Observer observe_support(const Model& model, std::size_t support) {
+  std::size_t first = 0;
+  for (std::size_t s = 0; s < support; ++s) first += model.supports[s].nodes.size();
+  return {model.supports[support].name,
+          {{"reaction_x", "N"}, {"reaction_y", "N"}, {"moment", "N m"}},
+          always,
+          [&held = model.supports[support], first](const State& state, std::span<double> out) {
+            Vec2 sum;
+            double moment = 0;
+            for (std::size_t k = 0; k < held.nodes.size(); ++k) {
+              const Vec2 force = state.support_forces[first + k];
+              sum += force;
+              moment += cross(place(state, held.nodes[k]) - held.centre, force);
+            }
+            out[0] = sum.x;
+            out[1] = sum.y;
+            out[2] = moment;
+          }};
+}
+
+std::vector<Observer> make_observers(const Model& model) {
+  std::vector<Observer> all;
+  for (const NodeObserver& node : model.observed_nodes) all.push_back(observe_node(model, node));
+  for (const ElementObserver& element : model.observed_elements) all.push_back(observe_element(model, element));
+  for (const RegionObserver& region : model.observed_regions) all.push_back(observe_region(model, region));
+  for (const Body& body : model.bodies) all.push_back(observe_body(model, body));
+  for (std::size_t o = 0; o < model.obstacles.size(); ++o) all.push_back(observe_obstacle(model, o));
+  for (std::size_t s = 0; s < model.supports.size(); ++s) all.push_back(observe_support(model, s));
+  all.push_back(observe_energy(model));
+  all.push_back(observe_momentum(model));
+  return all;
+}
+
+}  // namespace udar
