@@ -147,7 +147,8 @@ histories_every = "1 ms"
 
 TEST_CASE("things keep the order of the file") {
   std::string text(short_beam);
-  for (const char* name : {"zeta", "alpha", "mid"}) text += std::string("[obstacles.") + name + "]\nshape = \"half_plane\"\npoint = [\"0 m\", \"-1 m\"]\n";
+  for (const char* name : {"zeta", "alpha", "mid"})
+    text += std::string("[obstacles.") + name + "]\nshape = \"half_plane\"\npoint = [\"0 m\", \"-1 m\"]\n";
   const Case c = read_case(text, "order.toml");
   CHECK(c.obstacles[0].name == "stop");
   CHECK(c.obstacles[1].name == "zeta");
@@ -195,8 +196,10 @@ TEST_CASE("what is possible but hardly meant is a warning") {
   CHECK(warnings[0].cure.find("did you mean GPa?") != std::string::npos);
   CHECK(warnings[0].line == 6);
 
-  read_case(std::string(short_beam) + "[materials.air]\nlaw = \"elastic\"\ndensity = \"1 kg/m^3\"\nyoung_modulus = \"1 GPa\"\npoisson_ratio = 0\n",
-            "two.toml", {}, &warnings);
+  read_case(
+      std::string(short_beam) +
+          "[materials.air]\nlaw = \"elastic\"\ndensity = \"1 kg/m^3\"\nyoung_modulus = \"1 GPa\"\npoisson_ratio = 0\n",
+      "two.toml", {}, &warnings);
   REQUIRE(warnings.size() == 1);
   CHECK(warnings[0].message == "the wave speed of \"air\" is 3.16e+04 m/s");
 
@@ -244,9 +247,10 @@ TEST_CASE("a case built in code is held to the same rules") {
     FAIL("no mistake was found");
   } catch (const UserError& error) {
     const std::string text = error.what();
-    for (const char* part : {"impossible value for `thickness` (`bodies.beam.thickness`)", "this is -1 m",
-                             "there is no material \"stel\" (`bodies.beam.material`)", "did you mean \"steel\"?",
-                             "`run.gravity.1`", "the name \"steel\" is taken", "obstacles.stop.points", "impossible name"}) {
+    for (const char* part :
+         {"impossible value for `thickness` (`bodies.beam.thickness`)", "this is -1 m",
+          "there is no material \"stel\" (`bodies.beam.material`)", "did you mean \"steel\"?", "`run.gravity.1`",
+          "the name \"steel\" is taken", "obstacles.stop.points", "impossible name"}) {
       INFO(text);
       CHECK(text.find(part) != std::string::npos);
     }

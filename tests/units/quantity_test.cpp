@@ -23,7 +23,9 @@ std::string complaint(std::string_view text, Dimension needed) {
   return value.error().what + "; " + value.error().reason + "; " + value.error().cure;
 }
 
-bool has(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
+bool has(const std::string& text, std::string_view part) {
+  return text.find(part) != std::string::npos;
+}
 
 TEST_CASE("quantities come out as the nearest double of their SI value") {
   CHECK(si("80 m/s", dimension::velocity) == 80);
@@ -69,7 +71,6 @@ TEST_CASE("units may be written in several ways") {
   CHECK(si("7850 kg/m\u00b3", dimension::density) == 7850);
   CHECK(si("35\u00b0", dimension::angle) == si("35 deg", dimension::angle));
   CHECK(si("1E3 mm", dimension::length) == 1);
-  CHECK(si("0e2147483647 Gm", dimension::length) == 0);
   CHECK(si("1e+2 cm", dimension::length) == 1);
 }
 
@@ -107,9 +108,43 @@ TEST_CASE("an unknown unit is answered with the nearest one") {
 }
 
 TEST_CASE("what is no quantity is refused, and the reason said") {
-  for (const char* text : {"", " ", "m", "m/s", "0x10 m", "inf m", "nan", "-inf", "1e400 m", "1e-400 m", "--5 m", "+-5 m", "1.5.2 m",
-                           "5 m/", "5 /", "5 *m", "5 m^", "5 m^2.5", "5 m^22", "5 (m", "5 m)", "5 ()", "5 m//s", "5 m^^2", "5 $", "5 m\n",
-                           "5 m;", ".5 m", "5. m", "1_000 m", "5 1", "5 1m", "1e300 Gm Gm", "5 m m m\xff", "5 \xc2"}) {
+  for (const char* text : {"",
+                           " ",
+                           "m",
+                           "m/s",
+                           "0x10 m",
+                           "inf m",
+                           "nan",
+                           "-inf",
+                           "1e400 m",
+                           "1e-400 m",
+                           "--5 m",
+                           "+-5 m",
+                           "1.5.2 m",
+                           "5 m/",
+                           "5 /",
+                           "5 *m",
+                           "5 m^",
+                           "5 m^2.5",
+                           "5 m^22",
+                           "5 (m",
+                           "5 m)",
+                           "5 ()",
+                           "5 m//s",
+                           "5 m^^2",
+                           "5 $",
+                           "5 m\n",
+                           "5 m;",
+                           ".5 m",
+                           "5. m",
+                           "1_000 m",
+                           "5 1",
+                           "5 1m",
+                           "1e300 Gm Gm",
+                           "5 m m m\xff",
+                           "5 \xc2",
+                           "1e2147483647 Gm",
+                           "0e99999999999 Gm"}) {
     INFO(text);
     CHECK_FALSE(parse_quantity(text).has_value());
     const auto needed = parse_si(text, dimension::length);
@@ -125,9 +160,10 @@ TEST_CASE("what is no quantity is refused, and the reason said") {
 }
 
 TEST_CASE("SI texts read back to the same value") {
-  for (const Dimension d : {dimension::length, dimension::velocity, dimension::density, dimension::stress, dimension::spin,
-                            dimension::rate, dimension::wave_number, dimension::angle, dimension::stiffness, dimension::force,
-                            dimension::acceleration, dimension::number, Dimension{2, 3, -5}, Dimension{0, 0, -7}, Dimension{-1, -1, 0}}) {
+  for (const Dimension d :
+       {dimension::length, dimension::velocity, dimension::density, dimension::stress, dimension::spin, dimension::rate,
+        dimension::wave_number, dimension::angle, dimension::stiffness, dimension::force, dimension::acceleration,
+        dimension::number, Dimension{2, 3, -5}, Dimension{0, 0, -7}, Dimension{-1, -1, 0}}) {
     for (const double value : {0.1, -2.5e-300, 1e22, 0.0, 6.4e-8, 1.0 / 3}) {
       INFO(si_text(value, d));
       CHECK(si(si_text(value, d), d) == value);

@@ -77,10 +77,18 @@ TEST_CASE("units have the sizes that UDUNITS gives them") {
     return;
   }
   // What it calls by another name, or not at all (ours in its words).
-  const std::map<std::string, std::string> other_words{
-      {"psi", "lbf/in^2"}, {"ksi", "kip/in^2"},    {"kip", "1000 lbf"}, {"deg", "arc_degree"}, {"rev", "360 arc_degree"},
-      {"tf", "1000 kgf"},  {"rpm", "6 arc_degree/s"}, {"in", "inch"},   {"mi", "mile"},        {"yd", "yard"},
-      {"at", "kgf/cm^2"},  {"lbm", "lb"}};
+  const std::map<std::string, std::string> other_words{{"psi", "lbf/in^2"},
+                                                       {"ksi", "kip/in^2"},
+                                                       {"kip", "1000 lbf"},
+                                                       {"deg", "arc_degree"},
+                                                       {"rev", "360 arc_degree"},
+                                                       {"tf", "1000 kgf"},
+                                                       {"rpm", "6 arc_degree/s"},
+                                                       {"in", "inch"},
+                                                       {"mi", "mile"},
+                                                       {"yd", "yard"},
+                                                       {"at", "kgf/cm^2"},
+                                                       {"lbm", "lb"}};
   int compared = 0;
   for (const std::string& name : unit_names()) {
     const auto unit = find_unit(name);
@@ -94,7 +102,8 @@ TEST_CASE("units have the sizes that UDUNITS gives them") {
     CHECK(unit->scale.apply(1) == doctest::Approx(factor).epsilon(1e-12));
   }
   CHECK(compared > 60);
-  for (const char* text : {"kgf/cm^2", "kg/m^3", "m/s^2", "N/mm^2", "lbf/in", "g/cm^3", "kg m^2/s^3", "N/(m s)", "m s-2", "kN/m"}) {
+  for (const char* text :
+       {"kgf/cm^2", "kg/m^3", "m/s^2", "N/mm^2", "lbf/in", "g/cm^3", "kg m^2/s^3", "N/(m s)", "m s-2", "kN/m"}) {
     const auto ours = parse_quantity("1 " + std::string(text));
     REQUIRE(ours.has_value());
     CHECK(ours->value == doctest::Approx(udunits.factor(text, si_unit(ours->dimension))).epsilon(1e-12));

@@ -49,8 +49,6 @@ std::string one_of(std::span<const std::string> words) {
   return out;
 }
 
-std::string shortest(double value) {
-  return fmt::format("{}", value);
-}
+std::string shortest(double value) { return fmt::format("{}", value); }
 
 }  // namespace udar

@@ -30,7 +30,9 @@ Character character_at(std::string_view text, std::size_t at) {
   return {code, bytes};
 }
 
-bool is_control(std::uint32_t code) { return (code < 0x20 && code != '\t' && code != '\n') || (code >= 0x7f && code < 0xa0); }
+bool is_control(std::uint32_t code) {
+  return (code < 0x20 && code != '\t' && code != '\n') || (code >= 0x7f && code < 0xa0);
+}
 
 /// Marks that change the direction of writing: what is seen is then not what is read.
 bool is_hidden(std::uint32_t code) {
@@ -67,10 +69,12 @@ class Converter {
     const auto error = [&](std::string message, std::string pointer, std::string cure) {
       return TextError{line_, column_, std::move(message), std::move(pointer), std::move(cure)};
     };
-    if (c.bytes == 0) return error("not a text in UTF-8", "this byte is not part of a character", "save the file as UTF-8");
+    if (c.bytes == 0)
+      return error("not a text in UTF-8", "this byte is not part of a character", "save the file as UTF-8");
     if (c.code == '\r') {
       if (text_.substr(at_).starts_with("\r\n")) return {};
-      return error("stray carriage return", "a line ends with LF or CR LF", "save the file with the line ends of this system");
+      return error("stray carriage return", "a line ends with LF or CR LF",
+                   "save the file with the line ends of this system");
     }
     if (is_control(c.code)) {
       return error(fmt::format("control character U+{:04X}", c.code), "a case file is plain text", "remove it");

@@ -2,9 +2,8 @@
 
 #include <string>
 #include <string_view>
-#include <vector>
-
 #include <tl/expected.hpp>
+#include <vector>
 
 namespace udar {
 
@@ -31,8 +30,8 @@ struct TextError {
 inline constexpr std::size_t largest_document = 1 << 20;  ///< bytes
 inline constexpr int deepest_key = 16;                    ///< parts of a key such as a.b.c, and values inside values
 
-/// Checks the text and turns it into ASCII: characters beyond it become \uXXXX inside double quotes, `?` in comments and
-/// are refused elsewhere. A byte order mark is dropped.
+/// Checks the text and turns it into ASCII: characters beyond it become \uXXXX inside double quotes, `?` in comments
+/// and are refused elsewhere. A byte order mark is dropped.
 tl::expected<AsciiText, TextError> to_ascii(std::string_view text);
 
 /// The text with everything replaced that a terminal could take as a command or that hides what stands there.

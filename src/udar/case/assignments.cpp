@@ -78,7 +78,8 @@ tl::expected<void, Diagnostic> assign(Document& document, std::string_view assig
   document.sources.push_back({"--set", std::string(assignment)});
   const auto mistake = [&](int column, std::size_t length, std::string message, std::string pointer) {
     const Place place{source, 1, column, std::max(1, static_cast<int>(length))};
-    return tl::unexpected(diagnostic_at(document.sources, place, std::move(message), std::move(pointer), std::string(usage)));
+    return tl::unexpected(
+        diagnostic_at(document.sources, place, std::move(message), std::move(pointer), std::string(usage)));
   };
 
   const auto equals = assignment.find('=');
@@ -86,14 +87,17 @@ tl::expected<void, Diagnostic> assign(Document& document, std::string_view assig
     return mistake(1, std::min<std::size_t>(assignment.size(), 60), "unreadable assignment", "key=value is needed");
   }
   const auto parts = parts_of(assignment.substr(0, equals));
-  if (parts.size() > deepest_key) return mistake(1, equals, "key with too many parts", fmt::format("at most {} are read", deepest_key));
+  if (parts.size() > deepest_key)
+    return mistake(1, equals, "key with too many parts", fmt::format("at most {} are read", deepest_key));
 
   Value* value = &document.root;
   int column = 1;
   for (const std::string_view part : parts) {
-    if (!is_key(part)) return mistake(column, part.size(), "unreadable key", "letters, digits, `_` and `-` are read here");
+    if (!is_key(part))
+      return mistake(column, part.size(), "unreadable key", "letters, digits, `_` and `-` are read here");
     Value* next = step_into(*value, part, {source, 1, column, static_cast<int>(part.size())});
-    if (next == nullptr) return mistake(column, part.size(), fmt::format("there is no `{}`", part), why_no_step(*value));
+    if (next == nullptr)
+      return mistake(column, part.size(), fmt::format("there is no `{}`", part), why_no_step(*value));
     value = next;
     column += static_cast<int>(part.size()) + 1;
   }

@@ -17,8 +17,8 @@ const MaterialCase& material_of(const Case& input, const BodyCase& body) {
   const auto found = std::find_if(input.materials.begin(), input.materials.end(),
                                   [&](const MaterialCase& m) { return m.name == body.material; });
   if (found != input.materials.end()) return *found;
-  throw UserError(ExitCode::bad_case, fmt::format("body `{}` asks for material `{}`, which is not there", body.name,
-                                                  body.material));
+  throw UserError(ExitCode::bad_case,
+                  fmt::format("body `{}` asks for material `{}`, which is not there", body.name, body.material));
 }
 
 /// Appends a body's mesh to the model's arrays. Elements are padded to whole vectors with the padding triangle, whose
@@ -53,8 +53,7 @@ void append_body(Model& model, const BodyCase& from, const MaterialCase& materia
     model.area_density.push_back(body.density * area);
     for (const Index corner : model.corners.back()) model.mass[corner] += mass / 3;
   }
-  model.element_numbers.insert(model.element_numbers.end(), mesh.triangle_numbers.begin(),
-                               mesh.triangle_numbers.end());
+  model.element_numbers.insert(model.element_numbers.end(), mesh.triangle_numbers.begin(), mesh.triangle_numbers.end());
   model.element_numbers.resize(body.padded_end);
   model.area_density.resize(body.padded_end, body.density);
   model.corners.resize(body.padded_end, {~Index{0}, ~Index{0}, ~Index{0}});
@@ -81,7 +80,8 @@ void set_start_velocity(Model& model, const BodyCase& from, const Body& body) {
   }
 }
 
-/// Three nodes that never move carry the triangle that pads the element arrays: large, so that it never limits the step.
+/// Three nodes that never move carry the triangle that pads the element arrays: large, so that it never limits the
+/// step.
 void add_padding(Model& model) {
   double size = 1;
   for (const Vec2 p : model.rest) size = std::max({size, std::fabs(p.x), std::fabs(p.y)});

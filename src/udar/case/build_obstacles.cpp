@@ -59,8 +59,7 @@ void limit_steps(Model& model) {
                                  ? std::max(obstacle.normal_stiffness[c], obstacle.tangential_stiffness[c])
                                  : obstacle.normal_stiffness[c];
       spring[node] += stiffer * model.inverse_mass[node];
-      dashpot[node] +=
-          2 * model.contact.damping * std::sqrt(obstacle.normal_stiffness[c] * model.inverse_mass[node]);
+      dashpot[node] += 2 * model.contact.damping * std::sqrt(obstacle.normal_stiffness[c] * model.inverse_mass[node]);
     }
   }
   for (const Body& body : model.bodies) {

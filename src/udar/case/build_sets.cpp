@@ -94,12 +94,14 @@ void add_loads(Model& model, const Case& input, const std::vector<Mesh>& meshes)
 void add_observers(Model& model, const Case& input, const std::vector<Mesh>& meshes) {
   for (const NodeObserverCase& from : input.observed_nodes) {
     const Index b = body_index(input, from.body, fmt::format("observer `{}`", from.name));
-    model.observed_nodes.push_back({from.name, model.bodies[b].node_begin + nearest_node(meshes[b], from.at),
+    model.observed_nodes.push_back({from.name,
+                                    model.bodies[b].node_begin + nearest_node(meshes[b], from.at),
                                     {from.window.begin, from.window.end}});
   }
   for (const ElementObserverCase& from : input.observed_elements) {
     const Index b = body_index(input, from.body, fmt::format("observer `{}`", from.name));
-    model.observed_elements.push_back({from.name, model.bodies[b].element_begin + element_at(meshes[b], from.at),
+    model.observed_elements.push_back({from.name,
+                                       model.bodies[b].element_begin + element_at(meshes[b], from.at),
                                        {from.window.begin, from.window.end}});
   }
   for (const RegionObserverCase& from : input.observed_regions) {

@@ -49,10 +49,10 @@ struct ObstacleCase {
 /// Nodes or edges of a body; exactly one of the four ways. Places are those of the undeformed body.
 struct Selection {
   std::string body;
-  std::string side;          ///< a named piece of boundary: "left"
-  std::vector<Vec2> box;     ///< m, two opposite corners: all inside or on them
-  std::vector<Vec2> line;    ///< m, two ends: all within a hundredth of an element of it
-  std::optional<Vec2> point; ///< m, the nearest node (not for edges)
+  std::string side;           ///< a named piece of boundary: "left"
+  std::vector<Vec2> box;      ///< m, two opposite corners: all inside or on them
+  std::vector<Vec2> line;     ///< m, two ends: all within a hundredth of an element of it
+  std::optional<Vec2> point;  ///< m, the nearest node (not for edges)
 };
 
 /// Nodes whose motion is given. Directions not named stay free.

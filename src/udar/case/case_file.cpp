@@ -80,6 +80,8 @@ void check_case(const Case& c, std::vector<Diagnostic>* warnings) {
   check(c, mistakes, nullptr, warnings);
 }
 
-std::string to_toml(const Case& c) { return write_section(case_schema(), c, "", ""); }
+std::string to_toml(const Case& c) {
+  return write_section(case_schema(), c, "", "");
+}
 
 }  // namespace udar

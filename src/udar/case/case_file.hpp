@@ -12,8 +12,8 @@
 namespace udar {
 
 /// Reads a case file (docs/case-file.md). Each of `assignments`, "bodies.beam.thickness=2 cm", then replaces a value.
-/// Throws UserError(bad_case) with everything that is wrong, in the order of the file. What is possible but hardly meant
-/// goes to `warnings` if given.
+/// Throws UserError(bad_case) with everything that is wrong, in the order of the file. What is possible but hardly
+/// meant goes to `warnings` if given.
 Case load_case(const std::filesystem::path& file, std::span<const std::string> assignments = {},
                std::vector<Diagnostic>* warnings = nullptr);
 
@@ -21,7 +21,8 @@ Case load_case(const std::filesystem::path& file, std::span<const std::string> a
 Case read_case(std::string_view text, std::string_view name, std::span<const std::string> assignments = {},
                std::vector<Diagnostic>* warnings = nullptr);
 
-/// The same checks for a case built in code: throws UserError(bad_case), with the path of each value instead of a place.
+/// The same checks for a case built in code: throws UserError(bad_case), with the path of each value instead of a
+/// place.
 void check_case(const Case& c, std::vector<Diagnostic>* warnings = nullptr);
 
 /// The case as a case file: everything in SI units, defaults included. Reads back to the same case, bit for bit.

@@ -91,7 +91,8 @@ std::string missing_quotes(std::string_view line) {
   while (value.ends_with(' ')) value.remove_suffix(1);
   if (value.find_first_of("\"'[]{},") != std::string_view::npos || value.empty()) return "";
   const auto quantity = parse_quantity(value);
-  const bool word = std::ranges::all_of(value, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; });
+  const bool word =
+      std::ranges::all_of(value, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; });
   if ((quantity && !quantity->bare) || (!quantity && word)) {
     return fmt::format("did you mean \"{}\", in double quotes?", shown(value));
   }
@@ -165,7 +166,8 @@ Place Document::place_of(std::string_view path, bool of_key) const {
 Diagnostic diagnostic_at(std::span<const Source> sources, const Place& place, std::string message, std::string pointer,
                          std::string cure) {
   const Source& source = sources[static_cast<std::size_t>(place.source)];
-  Diagnostic out{.file = source.name, .message = std::move(message), .pointer = std::move(pointer), .cure = std::move(cure)};
+  Diagnostic out{
+      .file = source.name, .message = std::move(message), .pointer = std::move(pointer), .cure = std::move(cure)};
   if (place.line == 0) return out;
   const std::string_view line = line_of(source.text, place.line);
   constexpr std::size_t longest_line = 400;  // no caret is found in a longer one

@@ -4,9 +4,8 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
-
 #include <tl/expected.hpp>
+#include <vector>
 
 #include "udar/base/error.hpp"
 
@@ -66,7 +65,8 @@ Diagnostic diagnostic_at(std::span<const Source> sources, const Place& place, st
 /// Reads a TOML text. `name` is what diagnostics call the file.
 tl::expected<Document, Diagnostic> parse_document(std::string_view text, std::string_view name);
 
-/// Carries out `a.b.0.c=value` on the document. The value is read as TOML or else taken as a text; missing tables are made.
+/// Carries out `a.b.0.c=value` on the document. The value is read as TOML or else taken as a text; missing tables are
+/// made.
 tl::expected<void, Diagnostic> assign(Document& document, std::string_view assignment);
 
 }  // namespace udar

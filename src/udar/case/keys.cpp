@@ -15,7 +15,9 @@ constexpr QuantityKind positive_time{dimension::time, limits::positive};
 const Schema<MassDamping>& damping_schema() {
   using D = MassDamping;
   static const Schema<D> schema{
-      .doc = "Damping proportional to mass: force = -rate m (v - v0). For heaps to come to rest and quasi-static problems.",
+      .doc =
+          "Damping proportional to mass: force = -rate m (v - v0). For heaps to come to rest and quasi-static "
+          "problems.",
       .keys = {
           key("rate", &D::rate, QuantityKind{dimension::rate, limits::not_negative}, "0: no damping", required),
           key("against", &D::against, WordKind{{"rest", "mean_motion"}}, "v0: rest or the mean velocity of the body"),
@@ -52,27 +54,28 @@ const Schema<ContactSettings>& contact_schema() {
   static const Schema<ContactSettings> schema{
       .doc = "Contact of all bodies and obstacles.",
       .keys = {key("damping", &ContactSettings::damping, QuantityKind{dimension::number, {.low = 0, .high = 1}},
-                   "fraction of critical damping of a contact spring on its node; normal direction only", Need::optional,
-                   "0.05")}};
+                   "fraction of critical damping of a contact spring on its node; normal direction only",
+                   Need::optional, "0.05")}};
   return schema;
 }
 
 const Schema<MaterialCase>& material_schema() {
   using M = MaterialCase;
-  static const Schema<M> schema{
-      .doc = "A material. `law` says which other keys there are.",
-      .keys = {key("density", &M::density, QuantityKind{dimension::density, limits::positive}, "mass per volume", required)},
-      .alternatives = alternatives("law", "how stress follows strain", &M::law)};
+  static const Schema<M> schema{.doc = "A material. `law` says which other keys there are.",
+                                .keys = {key("density", &M::density, QuantityKind{dimension::density, limits::positive},
+                                             "mass per volume", required)},
+                                .alternatives = alternatives("law", "how stress follows strain", &M::law)};
   return schema;
 }
 
 const Schema<CosineMode>& cosine_mode_schema() {
   using C = CosineMode;
   static const Schema<C> schema{
-      .doc = "Initial velocity amplitude * cos(wave_vector . X) at the undeformed place X: a mode with a smooth solution.",
+      .doc =
+          "Initial velocity amplitude * cos(wave_vector . X) at the undeformed place X: a mode with a smooth solution.",
       .keys = {key("amplitude", &C::amplitude, velocity, "largest velocity", required),
-               key("wave_vector", &C::wave_vector, VectorKind{{dimension::wave_number}}, "direction and 2 pi over wave length",
-                   required)}};
+               key("wave_vector", &C::wave_vector, VectorKind{{dimension::wave_number}},
+                   "direction and 2 pi over wave length", required)}};
   return schema;
 }
 
@@ -93,7 +96,8 @@ const Schema<BodyCase>& body_schema() {
           key("material", &B::material, NameKind{"name of a material", "steel"}, "what it is made of", required),
           key("thickness", &B::thickness, QuantityKind{dimension::length, limits::positive}, "out of the plane"),
           key("velocity", &B::velocity, velocity, "at the start, of every node"),
-          key("spin", &B::spin, QuantityKind{dimension::spin}, "at the start, counter-clockwise about the centre of mass"),
+          key("spin", &B::spin, QuantityKind{dimension::spin},
+              "at the start, counter-clockwise about the centre of mass"),
           key("cosine_mode", &B::cosine_mode, InlineTableKind<CosineMode>{cosine_mode_schema},
               "a velocity at the start that changes from place to place"),
           key("mesh", &B::mesh, InlineTableKind<MeshShape>{mesh_schema}, "its triangles", required),
@@ -106,15 +110,16 @@ const Schema<ObstacleCase>& obstacle_schema() {
   constexpr QuantityKind spring{dimension::stiffness, limits::positive};
   static const Schema<O> schema{
       .doc = "A rigid obstacle that every body can strike. `shape` says which other keys there are.",
-      .keys = {
-          key("friction", &O::friction, QuantityKind{dimension::number, limits::not_negative},
-              "Coulomb's coefficient, sticking and sliding", Need::optional, "0.35"),
-          key("stiffness", &O::stiffness, QuantityOrWordKind{spring, "auto"},
-              "of the contact spring at each node; automatic: that of the touching element"),
-          key("tangential_stiffness", &O::tangential_stiffness, QuantityOrWordKind{spring, "auto"},
-              "of the spring that sticks before it slides; automatic: as `stiffness`"),
-          key("velocity", &O::velocity, velocity, "of the obstacle, for ever"),
-      },
+      .keys =
+          {
+              key("friction", &O::friction, QuantityKind{dimension::number, limits::not_negative},
+                  "Coulomb's coefficient, sticking and sliding", Need::optional, "0.35"),
+              key("stiffness", &O::stiffness, QuantityOrWordKind{spring, "auto"},
+                  "of the contact spring at each node; automatic: that of the touching element"),
+              key("tangential_stiffness", &O::tangential_stiffness, QuantityOrWordKind{spring, "auto"},
+                  "of the spring that sticks before it slides; automatic: as `stiffness`"),
+              key("velocity", &O::velocity, velocity, "of the obstacle, for ever"),
+          },
       .alternatives = alternatives("shape", "its outline", &O::shape)};
   return schema;
 }
@@ -125,8 +130,9 @@ const Schema<Selection>& selection_schema() {
       .doc = "Nodes or edges of the undeformed body, chosen in one of four ways.",
       .keys = {
           key("side", &S::side, NameKind{"name of a side", "left", true}, "a side that the mesh generator named"),
-          key("box", &S::box, PointsKind{any_length, 2, 2, true}, "two opposite corners: all that is inside or on the sides",
-              Need::optional, "[[\"0 cm\", \"0 cm\"], [\"4 cm\", \"3 cm\"]]"),
+          key("box", &S::box, PointsKind{any_length, 2, 2, true},
+              "two opposite corners: all that is inside or on the sides", Need::optional,
+              "[[\"0 cm\", \"0 cm\"], [\"4 cm\", \"3 cm\"]]"),
           key("line", &S::line, PointsKind{any_length, 2, 2, true}, "two ends: all that is on the line"),
           key("point", &S::point, place, "the nearest node; not for edges"),
       }};
@@ -146,7 +152,8 @@ const Schema<SupportCase>& support_schema() {
                key("angle", &Turning::angle, TimeTableKind{{dimension::angle}}, "counter-clockwise", required)}};
   static constexpr SchemaSource<Turning> turning_schema = +[]() -> const Schema<Turning>& { return turning; };
   const InlineTableKind<Turning> kind{turning_schema};
-  Key<S> turn{{"turn", kind.describe(), "", "turns the nodes rigidly; not together with move_x or move_y", kind.example()}};
+  Key<S> turn{
+      {"turn", kind.describe(), "", "turns the nodes rigidly; not together with move_x or move_y", kind.example()}};
   turn.read = [kind](const Value& value, const std::string& path, S& support, Mistakes& mistakes) {
     Turning read;
     kind.read(value, path, read, mistakes);
@@ -159,14 +166,18 @@ const Schema<SupportCase>& support_schema() {
   turn.write = [kind](const S& support, const std::string&) {
     return support.turn ? kind.write(Turning{support.turn_about, *support.turn}) : "";
   };
-  turn.describe_below = [kind](const std::string& path, std::vector<TableText>& texts) { kind.describe_below(path, texts); };
+  turn.describe_below = [kind](const std::string& path, std::vector<TableText>& texts) {
+    kind.describe_below(path, texts);
+  };
 
   const TimeTableKind moved{any_length};
   static const Schema<S> schema{
       .doc = "Nodes whose motion is given. A direction that is not named stays free.",
       .keys = {
-          key_at<S>("body", [](auto& s) -> auto& { return s.nodes.body; }, body_name, "whose nodes", required),
-          key("nodes", &S::nodes, InlineTableKind<Selection>{selection_schema}, "which of them", required, "{ side = \"left\" }"),
+          key_at<S>(
+              "body", [](auto& s) -> auto& { return s.nodes.body; }, body_name, "whose nodes", required),
+          key("nodes", &S::nodes, InlineTableKind<Selection>{selection_schema}, "which of them", required,
+              "{ side = \"left\" }"),
           key("move_x", &S::move_x, moved, "displacement along x; \"0 m\" holds the nodes", Need::optional, "\"0 m\""),
           key("move_y", &S::move_y, moved, "displacement along y", Need::optional, "\"0 m\""),
           turn,
@@ -194,13 +205,15 @@ Key<LoadCase> only_for(LoadCase::Kind kind, Key<LoadCase> key) {
 /// `nodes` and `edges` fill the same member; which of them a case file has is settled by the kind of load.
 Key<LoadCase> selected(std::string name, bool nodes, std::string doc) {
   using L = LoadCase;
-  Key<L> out = key(std::move(name), &L::where, InlineTableKind<Selection>{selection_schema}, std::move(doc), Need::optional,
-                   nodes ? "{ point = [\"4 cm\", \"3 cm\"] }" : "{ side = \"top\" }");
+  Key<L> out = key(std::move(name), &L::where, InlineTableKind<Selection>{selection_schema}, std::move(doc),
+                   Need::optional, nodes ? "{ point = [\"4 cm\", \"3 cm\"] }" : "{ side = \"top\" }");
   const auto mine = [nodes](const L& load) { return nodes == (load.kind == L::Kind::force); };
   out.check = [mine, check = out.check](const L& load, const std::string& path, Mistakes& mistakes) {
     if (mine(load)) check(load, path, mistakes);
   };
-  out.write = [mine, write = out.write](const L& load, const std::string& path) { return mine(load) ? write(load, path) : ""; };
+  out.write = [mine, write = out.write](const L& load, const std::string& path) {
+    return mine(load) ? write(load, path) : "";
+  };
   out.text.standard = "";
   if (!nodes) out.describe_below = nullptr;  // the same table as that of the nodes
   return out;
@@ -210,19 +223,25 @@ const Schema<LoadCase>& load_schema() {
   using L = LoadCase;
   static const Schema<L> schema{
       .doc = "A force on nodes, or a traction or a pressure on edges.",
-      .keys = {
-          key_at<L>("body", [](auto& l) -> auto& { return l.where.body; }, body_name, "on which it acts", required),
-          selected("nodes", true, "where a force acts"),
-          selected("edges", false, "where a traction or a pressure acts"),
-          only_for(L::Kind::force, key("force", &L::value, VectorKind{{dimension::force}}, "at each node")),
-          only_for(L::Kind::traction, key("traction", &L::value, VectorKind{{dimension::stress}},
-                                          "force per undeformed area, in a direction that stays", Need::optional,
-                                          "[\"0 Pa\", \"-2 MPa\"]")),
-          only_for(L::Kind::pressure, key("pressure", &L::pressure, QuantityKind{dimension::stress},
-                                          "force per deformed area, along the inward normal", Need::optional, "\"2 MPa\"")),
-          key("factor", &L::factor, TimeTableKind{{dimension::number}}, "multiplies the load"),
-      },
-      .one_of = {{"force", "traction", "pressure"}, {"nodes", "edges"}}};
+      .keys =
+          {
+              key_at<L>(
+                  "body", [](auto& l) -> auto& { return l.where.body; }, body_name, "on which it acts", required),
+              selected("nodes", true, "where a force acts"),
+              selected("edges", false, "where a traction or a pressure acts"),
+              only_for(L::Kind::force, key("force", &L::value, VectorKind{{dimension::force}}, "at each node")),
+              only_for(L::Kind::traction, key("traction", &L::value, VectorKind{{dimension::stress}},
+                                              "force per undeformed area, in a direction that stays", Need::optional,
+                                              "[\"0 Pa\", \"-2 MPa\"]")),
+              only_for(L::Kind::pressure,
+                       key("pressure", &L::pressure, QuantityKind{dimension::stress},
+                           "force per deformed area, along the inward normal", Need::optional, "\"2 MPa\"")),
+              key("factor", &L::factor, TimeTableKind{{dimension::number}}, "multiplies the load"),
+          },
+      .one_of = {{"force", "traction", "pressure"}, {"nodes", "edges"}},
+      .clashes = {{"edges", "force", "a force acts on nodes", "write nodes = { ... }"},
+                  {"nodes", "traction", "a traction acts on edges", "write edges = { ... }"},
+                  {"nodes", "pressure", "a pressure acts on edges", "write edges = { ... }"}}};
   return schema;
 }
 
@@ -236,8 +255,8 @@ Schema<Observer> observer_schema(std::string doc, Key<Observer> where) {
 
 const Schema<NodeObserverCase>& node_observer_schema() {
   using N = NodeObserverCase;
-  static const Schema<N> schema = observer_schema<N>("A node whose motion is recorded.",
-                                                     key("at", &N::at, place, "the nearest node, undeformed", required));
+  static const Schema<N> schema = observer_schema<N>(
+      "A node whose motion is recorded.", key("at", &N::at, place, "the nearest node, undeformed", required));
   return schema;
 }
 
@@ -250,9 +269,9 @@ const Schema<ElementObserverCase>& element_observer_schema() {
 
 const Schema<RegionObserverCase>& region_observer_schema() {
   using R = RegionObserverCase;
-  static const Schema<R> schema =
-      observer_schema<R>("A part of a body whose mean motion is recorded.",
-                         key("polygon", &R::polygon, PointsKind{any_length, 3}, "all nodes inside it at the start", required));
+  static const Schema<R> schema = observer_schema<R>(
+      "A part of a body whose mean motion is recorded.",
+      key("polygon", &R::polygon, PointsKind{any_length, 3}, "all nodes inside it at the start", required));
   return schema;
 }
 
@@ -271,10 +290,11 @@ const Schema<OutputCase>& output_schema() {
       .keys = {
           key("fields_every", &O::fields_every, QuantityOrWordKind{positive_time, "never"},
               "from one picture of all fields to the next", Need::optional, "\"20 us\""),
-          key("fields_at", &O::fields_at, ListKind{{dimension::time, limits::not_negative}}, "pictures at these times as well",
-              Need::optional, "[\"0.52 ms\"]"),
+          key("fields_at", &O::fields_at, ListKind{{dimension::time, limits::not_negative}},
+              "pictures at these times as well", Need::optional, "[\"0.52 ms\"]"),
           key("histories_every", &O::histories_every, QuantityOrWordKind{positive_time, "auto"},
-              "from one line of the histories to the next; automatic: a thousandth of the run", Need::optional, "\"1 us\""),
+              "from one line of the histories to the next; automatic: a thousandth of the run", Need::optional,
+              "\"1 us\""),
       }};
   return schema;
 }
@@ -282,18 +302,17 @@ const Schema<OutputCase>& output_schema() {
 }  // namespace
 
 const Schema<Case>& case_schema() {
-  static const Schema<Case> schema{
-      .keys = {
-          key("run", &Case::run, SectionKind<RunSettings>{run_schema}, "", required),
-          key("contact", &Case::contact, SectionKind<ContactSettings>{contact_schema}, ""),
-          key("materials", &Case::materials, NamedKind<MaterialCase>{material_schema}, ""),
-          key("bodies", &Case::bodies, NamedKind<BodyCase>{body_schema}, ""),
-          key("obstacles", &Case::obstacles, NamedKind<ObstacleCase>{obstacle_schema}, ""),
-          key("supports", &Case::supports, NamedKind<SupportCase>{support_schema}, ""),
-          key("loads", &Case::loads, NamedKind<LoadCase>{load_schema}, ""),
-          key_at<Case>("observe", std::identity{}, SectionKind<Case>{observe_schema}, ""),
-          key("output", &Case::output, SectionKind<OutputCase>{output_schema}, ""),
-      }};
+  static const Schema<Case> schema{.keys = {
+                                       key("run", &Case::run, SectionKind<RunSettings>{run_schema}, "", required),
+                                       key("contact", &Case::contact, SectionKind<ContactSettings>{contact_schema}, ""),
+                                       key("materials", &Case::materials, NamedKind<MaterialCase>{material_schema}, ""),
+                                       key("bodies", &Case::bodies, NamedKind<BodyCase>{body_schema}, ""),
+                                       key("obstacles", &Case::obstacles, NamedKind<ObstacleCase>{obstacle_schema}, ""),
+                                       key("supports", &Case::supports, NamedKind<SupportCase>{support_schema}, ""),
+                                       key("loads", &Case::loads, NamedKind<LoadCase>{load_schema}, ""),
+                                       key_at<Case>("observe", std::identity{}, SectionKind<Case>{observe_schema}, ""),
+                                       key("output", &Case::output, SectionKind<OutputCase>{output_schema}, ""),
+                                   }};
   return schema;
 }
 

@@ -17,7 +17,9 @@ using Kind = Value::Kind;
 
 constexpr double largest_sensible = 1e30;  // squares and products of four such values are still finite
 
-std::string bound(double value, Dimension dimension) { return value == 0 ? "0" : si_text(value, dimension); }
+std::string bound(double value, Dimension dimension) {
+  return value == 0 ? "0" : si_text(value, dimension);
+}
 
 /// "above 0 and below 0.5"; "" without limits.
 std::string limits_text(const Limits& limits, Dimension dimension) {
@@ -81,7 +83,8 @@ std::string QuantityKind::describe() const {
 
 void QuantityKind::read(const Value& value, const std::string& path, double& out, Mistakes& mistakes) const {
   const auto refuse = [&](const UnitError& error) {
-    mistakes.add({path, fmt::format("{} for `{}`", error.what, shown(key_of(path))), error.reason, error.cure, value.place});
+    mistakes.add(
+        {path, fmt::format("{} for `{}`", error.what, shown(key_of(path))), error.reason, error.cure, value.place});
   };
   if (value.kind == Kind::text) {
     const auto parsed = parse_si(value.text, dimension);
@@ -99,9 +102,11 @@ void QuantityKind::read(const Value& value, const std::string& path, double& out
 void QuantityKind::check(double value, const std::string& path, Mistakes& mistakes) const {
   const bool sensible = std::fabs(value) <= largest_sensible;
   if (sensible && limits.hold(value)) return;
-  const std::string range = sensible ? limits_text(limits, dimension) : "no larger than " + si_text(largest_sensible, dimension);
+  const std::string range =
+      sensible ? limits_text(limits, dimension) : "no larger than " + si_text(largest_sensible, dimension);
   mistakes.add_unless_touched({path, fmt::format("impossible value for `{}`", key_of(path)),
-                               fmt::format("this is {}", si_text(value, dimension)), fmt::format("it must be {}", range)});
+                               fmt::format("this is {}", si_text(value, dimension)),
+                               fmt::format("it must be {}", range)});
 }
 
 std::string QuantityKind::write(double value) const {
@@ -145,7 +150,9 @@ std::string VectorKind::write(const Vec2& value) const {
 }
 
 std::string PointsKind::describe() const {
-  const std::string count = least == most ? fmt::format("{} ", least) : least > 1 ? fmt::format("at least {} ", least) : "";
+  const std::string count = least == most ? fmt::format("{} ", least)
+                            : least > 1   ? fmt::format("at least {} ", least)
+                                          : "";
   return count + "points [x, y], each " + each.describe();
 }
 
@@ -206,8 +213,9 @@ void QuantityOrWordKind::read(const Value& value, const std::string& path, std::
   }
   const bool begins_like_word = value.kind == Kind::text && !value.text.empty() && value.text[0] >= 'A';
   if (!begins_like_word) return quantity.read(value, path, out.emplace(), mistakes);
-  mistakes.add({path, fmt::format("unknown word for `{}`", shown(key_of(path))), fmt::format("{} is needed", describe()),
-                fmt::format("write \"{}\" or {}", word, example()), value.place});
+  mistakes.add({path, fmt::format("unknown word for `{}`", shown(key_of(path))),
+                fmt::format("{} is needed", describe()), fmt::format("write \"{}\" or {}", word, example()),
+                value.place});
 }
 
 void QuantityOrWordKind::check(const std::optional<double>& value, const std::string& path, Mistakes& mistakes) const {

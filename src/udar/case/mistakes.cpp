@@ -18,13 +18,12 @@ std::string other_lines(const std::vector<Place>& others) {
     const std::string line = std::to_string(place.line);
     if (lines.empty() || lines.back() != line) lines.push_back(line);
   }
-  const bool one = others.size() == 1;
   if (lines.size() > most_listed) return fmt::format("and {} more like it", others.size());
   std::string listed;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     listed += (i == 0 ? "" : i + 1 == lines.size() ? " and " : ", ") + lines[i];
   }
-  return fmt::format("and {} more like {} on line{} {}", others.size(), one ? "it" : "them", lines.size() == 1 ? "" : "s", listed);
+  return fmt::format("and {} more like it on line{} {}", others.size(), lines.size() == 1 ? "" : "s", listed);
 }
 
 }  // namespace
@@ -66,7 +65,8 @@ std::vector<Diagnostic> Mistakes::diagnostics(const Document* document) const {
 
   std::vector<std::pair<Place, const Mistake*>> placed;
   for (const Mistake& m : found_) placed.emplace_back(m.place ? *m.place : document->place_of(m.path), &m);
-  std::ranges::stable_sort(placed, {}, [](const auto& p) { return std::tuple(p.first.source, p.first.line, p.first.column); });
+  std::ranges::stable_sort(placed, {},
+                           [](const auto& p) { return std::tuple(p.first.source, p.first.line, p.first.column); });
 
   std::map<std::tuple<std::string, std::string, std::string>, std::size_t> groups;
   std::vector<std::vector<Place>> others;
@@ -85,7 +85,8 @@ std::vector<Diagnostic> Mistakes::diagnostics(const Document* document) const {
   for (std::size_t i = 0; i < out.size(); ++i) {
     if (!others[i].empty()) out[i].cure += (out[i].cure.empty() ? "" : "; ") + other_lines(others[i]);
   }
-  if (hidden > 0) out.push_back({.file = document->sources[0].name, .message = fmt::format("and {} more mistakes", hidden)});
+  if (hidden > 0)
+    out.push_back({.file = document->sources[0].name, .message = fmt::format("and {} more mistakes", hidden)});
   return out;
 }
 

@@ -26,8 +26,8 @@ class Mistakes {
  public:
   /// A mistake in what is written.
   void add(Mistake mistake);
-  /// A mistake in what it means. Kept to itself where something at, above or below the path is wrong already: a value that
-  /// could not be read is still at its default, and nothing should be said of that.
+  /// A mistake in what it means. Kept to itself where something at, above or below the path is wrong already: a value
+  /// that could not be read is still at its default, and nothing should be said of that.
   void add_unless_touched(Mistake mistake);
   /// Nothing more is said of what lies at this path.
   void touch(std::string_view path) { touched_.emplace(path); }

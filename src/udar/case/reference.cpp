@@ -82,13 +82,15 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
-std::string code(std::string_view text) { return text.empty() ? "" : fmt::format("`{}`", text); }
+std::string code(std::string_view text) {
+  return text.empty() ? "" : fmt::format("`{}`", text);
+}
 
 std::string markdown_rows(const std::vector<KeyText>& keys) {
   std::string out = "| key | value | default | meaning | example |\n|---|---|---|---|---|\n";
   for (const KeyText& k : keys) {
-    out += fmt::format("| {} | {} | {} | {} | {} |\n", code(k.name), escaped(k.value), k.required ? "required" : code(k.standard),
-                       escaped(k.doc), code(escaped(k.example)));
+    out += fmt::format("| {} | {} | {} | {} | {} |\n", code(k.name), escaped(k.value),
+                       k.required ? "required" : code(k.standard), escaped(k.doc), code(escaped(k.example)));
   }
   return out;
 }
@@ -101,7 +103,8 @@ std::vector<TableText> all_tables() {
 
 std::string lower(std::string_view text) {
   std::string out(text);
-  std::ranges::transform(out, out.begin(), [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); });
+  std::ranges::transform(out, out.begin(),
+                         [](char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); });
   return out;
 }
 
@@ -115,7 +118,9 @@ std::string terminal_text(const KeyText& k, const std::string& path, const std::
 
 }  // namespace
 
-std::string_view example_case() { return example; }
+std::string_view example_case() {
+  return example;
+}
 
 std::string case_file_reference() {
   std::string units;
@@ -136,7 +141,8 @@ std::string keys_text(std::string_view filter) {
   std::vector<std::string> names;
   const auto take = [&](const KeyText& k, const std::string& table, const std::string& choice) {
     const std::string path = join(table, k.name);
-    const bool found = lower(path).find(wanted) != std::string::npos || lower(k.doc).find(wanted) != std::string::npos ||
+    const bool found = lower(path).find(wanted) != std::string::npos ||
+                       lower(k.doc).find(wanted) != std::string::npos ||
                        lower(choice).find(wanted) != std::string::npos;
     if (found) out += terminal_text(k, path, choice);
     names.push_back(k.name);
@@ -149,7 +155,8 @@ std::string keys_text(std::string_view filter) {
   }
   if (!out.empty()) return out;
   const std::string near = nearest_word(filter, names);
-  return fmt::format("no key is about \"{}\"{}\n", shown(filter), near.empty() ? "" : fmt::format("; did you mean `{}`?", near));
+  return fmt::format("no key is about \"{}\"{}\n", shown(filter),
+                     near.empty() ? "" : fmt::format("; did you mean `{}`?", near));
 }
 
 }  // namespace udar

@@ -15,7 +15,9 @@
 namespace udar {
 namespace {
 
-std::string length_text(double metres) { return si_text(metres, dimension::length); }
+std::string length_text(double metres) {
+  return si_text(metres, dimension::length);
+}
 
 // --- names
 
@@ -36,9 +38,9 @@ class Known {
   void check(const std::string& name, const std::string& path, Mistakes& mistakes) const {
     if (set_.contains(name) || mistakes.full()) return;
     const std::string near = nearest_word(name, names_);
-    const std::string cure = names_.empty()  ? fmt::format("add a {}", what_)
-                             : near.empty()  ? fmt::format("there is {}", few(names_))
-                                             : fmt::format("did you mean \"{}\"?", near);
+    const std::string cure = names_.empty() ? fmt::format("add a {}", what_)
+                             : near.empty() ? fmt::format("there is {}", few(names_))
+                                            : fmt::format("did you mean \"{}\"?", near);
     mistakes.add_unless_touched({path, fmt::format("there is no {} \"{}\"", what_, shown(name)), "", cure});
   }
 
@@ -96,9 +98,9 @@ std::string polygon_fault(const std::vector<Vec2>& points, bool must_be_convex) 
 void check_polygon(const std::vector<Vec2>& points, bool convex, const std::string& path, Mistakes& mistakes) {
   const std::string fault = polygon_fault(points, convex);
   if (fault.empty()) return;
-  mistakes.add_unless_touched({path, "impossible polygon", fault,
-                               convex ? "give the corners of a convex polygon in order, each once"
-                                      : "give the corners in order, each once"});
+  mistakes.add_unless_touched(
+      {path, "impossible polygon", fault,
+       convex ? "give the corners of a convex polygon in order, each once" : "give the corners in order, each once"});
 }
 
 /// Shapes without a rule of their own.
@@ -123,9 +125,10 @@ void check_cells(double element_size, double room, const std::string& room_name,
   constexpr double most_cells = 1e9;
   constexpr double rounding = 1 + 1e-9;
   if (element_size > room * rounding) {
-    mistakes.add_unless_touched({key, "the elements are larger than the body",
-                                 fmt::format("{} against {} of {}", length_text(element_size), room_name, length_text(room)),
-                                 fmt::format("write \"{}\" or less", length_text(room))});
+    mistakes.add_unless_touched(
+        {key, "the elements are larger than the body",
+         fmt::format("{} against {} of {}", length_text(element_size), room_name, length_text(room)),
+         fmt::format("write \"{}\" or less", length_text(room))});
   } else if (area / element_size / element_size > most_cells) {
     mistakes.add_unless_touched({key, "far too many elements",
                                  fmt::format("about {:.0e} of them", area / element_size / element_size),
@@ -163,11 +166,13 @@ void check_run(const RunSettings& run, Mistakes& mistakes) {
   if (run.integrator != Integrator::adams2) return;
   if (!run.time_step) {
     mistakes.add_unless_touched({"run.time_step", "adams2 needs a fixed time_step",
-                                 "it is never stable, so no step can be chosen for it", "add time_step = \"6.4e-8 s\""});
+                                 "it is never stable, so no step can be chosen for it",
+                                 "add time_step = \"6.4e-8 s\""});
   }
   if (run.when_unstable != WhenUnstable::carry_on) {
     mistakes.add_unless_touched({"run.when_unstable", "adams2 needs when_unstable = \"continue\"",
-                                 "it is never stable: every step is beyond its limit", "add when_unstable = \"continue\""});
+                                 "it is never stable: every step is beyond its limit",
+                                 "add when_unstable = \"continue\""});
   }
 }
 
@@ -179,11 +184,12 @@ void check_selection(const Selection& s, const std::string& path, bool edges, Mi
     return;
   }
   if (edges && s.point) {
-    mistakes.add_unless_touched({join(path, "point"), "a point selects no edges", "a traction or pressure acts on edges",
-                                 "use side, box or line, or a force on nodes"});
+    mistakes.add_unless_touched({join(path, "point"), "a point selects no edges",
+                                 "a traction or pressure acts on edges", "use side, box or line, or a force on nodes"});
   }
   if (s.line.size() == 2 && s.line[0] == s.line[1]) {
-    mistakes.add_unless_touched({join(path, "line"), "the line has no length", "", "give two different ends, or a point"});
+    mistakes.add_unless_touched(
+        {join(path, "line"), "the line has no length", "", "give two different ends, or a point"});
   }
 }
 
@@ -193,8 +199,8 @@ void check_supports(const Case& c, const Known& bodies, Mistakes& mistakes) {
     bodies.check(s.nodes.body, join(path, "body"), mistakes);
     check_selection(s.nodes, join(path, "nodes"), false, mistakes);
     if (s.turn && (s.move_x || s.move_y)) {
-      mistakes.add_unless_touched({join(path, "turn"), "a support either turns or moves", "it has move_x or move_y as well",
-                                   "leave one of them out"});
+      mistakes.add_unless_touched({join(path, "turn"), "a support either turns or moves",
+                                   "it has move_x or move_y as well", "leave one of them out"});
     }
     if (!s.turn && !s.move_x && !s.move_y) {
       mistakes.add_unless_touched({path, fmt::format("the support \"{}\" holds nothing", s.name),
@@ -203,7 +209,9 @@ void check_supports(const Case& c, const Known& bodies, Mistakes& mistakes) {
   }
 }
 
-std::string selection_key(const LoadCase& load) { return load.kind == LoadCase::Kind::force ? "nodes" : "edges"; }
+std::string selection_key(const LoadCase& load) {
+  return load.kind == LoadCase::Kind::force ? "nodes" : "edges";
+}
 
 void check_loads(const Case& c, const Known& bodies, Mistakes& mistakes) {
   for (const LoadCase& load : c.loads) {
@@ -245,7 +253,8 @@ void check_rules(const Case& c, Mistakes& mistakes) {
   const Known materials("material", c.materials);
   const Known bodies("body", c.bodies);
   if (c.bodies.empty()) {
-    mistakes.add_unless_touched({"bodies", "there is no body", "a case needs at least one", "add a table [bodies.NAME]"});
+    mistakes.add_unless_touched(
+        {"bodies", "there is no body", "a case needs at least one", "add a table [bodies.NAME]"});
   }
   for (const BodyCase& body : c.bodies) {
     const std::string path = join("bodies", body.name);
@@ -282,12 +291,14 @@ void find_doubts(const Case& c, const Mistakes& mistakes, Mistakes& doubts) {
   for (const BodyCase& body : c.bodies) used.insert(body.material);
   for (const MaterialCase& material : c.materials) {
     if (used.contains(material.name)) continue;
-    doubt({join("materials", material.name), fmt::format("no body is made of \"{}\"", material.name), "", "leave it out or use it"});
+    doubt({join("materials", material.name), fmt::format("no body is made of \"{}\"", material.name), "",
+           "leave it out or use it"});
   }
   for (std::size_t i = 0; i < c.output.fields_at.size(); ++i) {
     if (c.output.fields_at[i] <= c.run.end_time) continue;
     doubt({join("output.fields_at", std::to_string(i)), "fields are asked for after the end",
-           fmt::format("the run ends at {}", si_text(c.run.end_time, dimension::time)), "lengthen the run or leave it out"});
+           fmt::format("the run ends at {}", si_text(c.run.end_time, dimension::time)),
+           "lengthen the run or leave it out"});
   }
   constexpr double many_frames = 1e5;
   if (c.output.fields_every && c.run.end_time / *c.output.fields_every > many_frames) {

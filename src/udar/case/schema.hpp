@@ -73,6 +73,14 @@ struct Alternatives {
   }
 };
 
+/// A key that makes no sense beside another one.
+struct Clash {
+  std::string key;
+  std::string with;
+  std::string reason;
+  std::string cure;
+};
+
 /// The keys of a table.
 template <class Owner>
 struct Schema {
@@ -80,13 +88,16 @@ struct Schema {
   std::vector<Key<Owner>> keys;
   std::optional<Alternatives<Owner>> alternatives = std::nullopt;
   std::vector<std::vector<std::string>> one_of = {};  ///< exactly one key of each group must be given
+  std::vector<Clash> clashes = {};
 };
 
 enum class Need { optional, required };
 inline constexpr Need required = Need::required;
 
 template <class Kind>
-inline constexpr bool is_section_kind = requires { Kind::is_section; };
+inline constexpr bool is_section_kind = requires {
+  Kind::is_section;
+};
 
 /// A key called `name` for what `get` (a member pointer or a function) finds in the Owner.
 template <class Kind, class Get, class Owner>
@@ -106,20 +117,25 @@ Key<Owner> make_key(std::string name, Get get, Kind kind, std::string doc, Need 
   };
   if constexpr (is_section_kind<Kind>) {
     out.is_section = true;
-    out.write = [get, kind](const Owner& owner, const std::string& path) { return kind.write(std::invoke(get, owner), path); };
+    out.write = [get, kind](const Owner& owner, const std::string& path) {
+      return kind.write(std::invoke(get, owner), path);
+    };
   } else {
     out.write = [get, kind](const Owner& owner, const std::string&) { return kind.write(std::invoke(get, owner)); };
     const Owner untouched{};
     if (!out.text.required) out.text.standard = kind.write(std::invoke(get, untouched));
   }
-  if constexpr (requires(std::vector<TableText>& texts) { kind.describe_below(std::string(), texts); }) {
-    out.describe_below = [kind](const std::string& path, std::vector<TableText>& texts) { kind.describe_below(path, texts); };
+  if constexpr (requires(std::vector<TableText> & texts) { kind.describe_below(std::string(), texts); }) {
+    out.describe_below = [kind](const std::string& path, std::vector<TableText>& texts) {
+      kind.describe_below(path, texts);
+    };
   }
   return out;
 }
 
 template <class Owner, class Member, class Kind>
-Key<Owner> key(std::string name, Member Owner::*member, Kind kind, std::string doc, Need need = {}, std::string example = "") {
+Key<Owner> key(std::string name, Member Owner::*member, Kind kind, std::string doc, Need need = {},
+               std::string example = "") {
   return make_key<Kind, Member Owner::*, Owner>(std::move(name), member, std::move(kind), std::move(doc), need,
                                                 std::move(example));
 }
@@ -160,7 +176,9 @@ Key<Owner> key_of_parameter(const Parameter<Owner>& p) {
     }
     Key<Owner> operator()(const Choice<Owner>& choice) const {
       const WordKind kind{choice.words};
-      const auto write = [choice, kind](const Owner& owner, const std::string&) { return kind.write(choice.get(owner)); };
+      const auto write = [choice, kind](const Owner& owner, const std::string&) {
+        return kind.write(choice.get(owner));
+      };
       Key<Owner> out;
       out.text = {p.name, kind.describe(), p.required ? "" : write(Owner{}, ""), p.doc, kind.example(), p.required};
       out.read = [choice, kind](const Value& value, const std::string& path, Owner& owner, Mistakes& mistakes) {
@@ -177,10 +195,14 @@ Key<Owner> key_of_parameter(const Parameter<Owner>& p) {
 /// The alternatives of the variant that `get` finds in an Owner, each with its own parameters as keys.
 template <class Owner, class Get, class... Types>
 Alternatives<Owner> alternatives_of(std::string name, std::string doc, Get get, const std::variant<Types...>*) {
-  Alternatives<Owner> out{std::move(name), std::move(doc), {}, [get](const Owner& o) { return std::invoke(get, o).index(); }};
+  Alternatives<Owner> out{
+      std::move(name), std::move(doc), {}, [get](const Owner& o) { return std::invoke(get, o).index(); }};
   const auto add = [&]<class Type>(const Type*) {
-    Alternative<Owner> one{Type::keyword, Type::doc, {}, [get](Owner& o) { std::invoke(get, o).template emplace<Type>(); }};
-    const auto part = [get](auto& o) -> auto& { return std::get<Type>(std::invoke(get, o)); };
+    Alternative<Owner> one{
+        Type::keyword, Type::doc, {}, [get](Owner& o) { std::invoke(get, o).template emplace<Type>(); }};
+    const auto part = [get](auto& o) -> auto& {
+      return std::get<Type>(std::invoke(get, o));
+    };
     for (const Parameter<Type>& p : Type::parameters()) one.keys.push_back(lift<Owner>(key_of_parameter(p), part));
     out.all.push_back(std::move(one));
   };

@@ -27,7 +27,8 @@ Mistake unknown_key(const Entry& entry, const std::string& path, std::span<const
   return m;
 }
 
-void check_group(const Value& table, const std::string& path, const std::vector<std::string>& group, Mistakes& mistakes) {
+void check_group(const Value& table, const std::string& path, const std::vector<std::string>& group,
+                 Mistakes& mistakes) {
   const Entry* first = nullptr;
   bool misspelt = false;
   for (const std::string& name : group) {
@@ -35,8 +36,8 @@ void check_group(const Value& table, const std::string& path, const std::vector<
     misspelt = misspelt || (entry == nullptr && mistakes.touched(join(path, name)));
     if (entry == nullptr) continue;
     if (first != nullptr) {
-      mistakes.add({join(path, name), fmt::format("`{}` and `{}` exclude each other", first->key, name), "this is the second one",
-                    fmt::format("give one of {}", one_of(group)), entry->place});
+      mistakes.add({join(path, name), fmt::format("`{}` and `{}` exclude each other", first->key, name),
+                    "this is the second one", fmt::format("give one of {}", one_of(group)), entry->place});
     }
     first = entry;
   }
@@ -48,7 +49,8 @@ void check_group(const Value& table, const std::string& path, const std::vector<
 }  // namespace
 
 void check_keys(const Value& table, const std::string& path, std::span<const KnownKey> known,
-                std::span<const std::vector<std::string>> one_of_groups, Mistakes& mistakes) {
+                std::span<const std::vector<std::string>> one_of_groups, std::span<const Clash> clashes,
+                Mistakes& mistakes) {
   std::set<std::string, std::less<>> allowed;
   for (const KnownKey& k : known) {
     if (k.elsewhere.empty()) allowed.insert(k.text->name);
@@ -69,7 +71,8 @@ void check_keys(const Value& table, const std::string& path, std::span<const Kno
   }
   for (const KnownKey& k : known) {
     const KeyText& text = *k.text;
-    if (!text.required || !k.elsewhere.empty() || table.find(text.name) != nullptr || meant.contains(text.name)) continue;
+    if (!text.required || !k.elsewhere.empty() || table.find(text.name) != nullptr || meant.contains(text.name))
+      continue;
     const std::string add = text.example.empty() ? fmt::format("add a table [{}]", join(path, text.name))
                                                  : fmt::format("add {} = {}", text.name, text.example);
     Mistake m{join(path, text.name), fmt::format("missing key `{}`", text.name), text.value + " is needed here", add};
@@ -78,6 +81,12 @@ void check_keys(const Value& table, const std::string& path, std::span<const Kno
     mistakes.add(std::move(m));
   }
   for (const auto& group : one_of_groups) check_group(table, path, group, mistakes);
+  for (const Clash& clash : clashes) {
+    const Entry* entry = table.find(clash.key);
+    if (entry == nullptr || table.find(clash.with) == nullptr) continue;
+    mistakes.add({join(path, clash.key), fmt::format("`{}` does not go with `{}`", clash.key, clash.with), clash.reason,
+                  clash.cure, entry->place});
+  }
 }
 
 }  // namespace udar

@@ -13,17 +13,23 @@ struct KnownKey {
 
 /// Unknown, missing and excluding keys of a table.
 void check_keys(const Value& table, const std::string& path, std::span<const KnownKey> known,
-                std::span<const std::vector<std::string>> one_of, Mistakes& mistakes);
+                std::span<const std::vector<std::string>> one_of, std::span<const Clash> clashes, Mistakes& mistakes);
 
 /// The documentation of a key that chooses between alternatives.
 template <class Owner>
 KeyText choice_text(const Alternatives<Owner>& a) {
   const WordKind words = a.words();
-  return {.name = a.key, .value = words.describe(), .standard = "", .doc = a.doc, .example = words.example(), .required = true};
+  return {.name = a.key,
+          .value = words.describe(),
+          .standard = "",
+          .doc = a.doc,
+          .example = words.example(),
+          .required = true};
 }
 
 template <class Owner>
-void read_table(const Schema<Owner>& schema, const Value& table, const std::string& path, Owner& owner, Mistakes& mistakes) {
+void read_table(const Schema<Owner>& schema, const Value& table, const std::string& path, Owner& owner,
+                Mistakes& mistakes) {
   if (table.kind != Value::Kind::table) return wrong_kind(table, path, "a table", "", mistakes);
 
   std::vector<KnownKey> known;
@@ -59,10 +65,11 @@ void read_table(const Schema<Owner>& schema, const Value& table, const std::stri
   for (const KeyText& text : unclear) known.push_back({&text, ""});
 
   for (const Key<Owner>* key : readable) {
-    if (const Entry* entry = table.find(key->text.name)) key->read(entry->value, join(path, key->text.name), owner, mistakes);
+    if (const Entry* entry = table.find(key->text.name))
+      key->read(entry->value, join(path, key->text.name), owner, mistakes);
   }
   if (schema.alternatives && !choice) mistakes.touch(join(path, schema.alternatives->key));
-  check_keys(table, path, known, schema.one_of, mistakes);
+  check_keys(table, path, known, schema.one_of, schema.clashes, mistakes);
 }
 
 /// Limits of all values, however they came there.
@@ -103,9 +110,8 @@ template <class Owner>
 std::string write_section(const Schema<Owner>& schema, const Owner& owner, const std::string& path,
                           const std::string& header) {
   std::string lines;
-  write_plain_keys(schema, owner, path, [&](const std::string& name, const std::string& text) {
-    lines += name + " = " + text + "\n";
-  });
+  write_plain_keys(schema, owner, path,
+                   [&](const std::string& name, const std::string& text) { lines += name + " = " + text + "\n"; });
   std::string out = lines.empty() || header.empty() ? lines : header + "\n" + lines + "\n";
   for (const Key<Owner>& key : schema.keys) {
     if (key.is_section) out += key.write(owner, join(path, key.text.name));
@@ -215,7 +221,8 @@ struct NamedKind {
   [[nodiscard]] std::string describe() const { return "tables by name"; }
   [[nodiscard]] std::string example() const { return ""; }
   void read(const Value& value, const std::string& path, std::vector<Item>& out, Mistakes& mistakes) const {
-    if (value.kind != Value::Kind::table) return wrong_kind(value, path, "a table for each, [" + path + ".NAME],", "", mistakes);
+    if (value.kind != Value::Kind::table)
+      return wrong_kind(value, path, "a table for each, [" + path + ".NAME],", "", mistakes);
     for (const Entry& entry : value.entries) {
       const std::string item_path = join(path, entry.key);
       out.emplace_back().name = entry.key;
@@ -255,13 +262,15 @@ struct ListedKind {
   [[nodiscard]] std::string describe() const { return "tables"; }
   [[nodiscard]] std::string example() const { return ""; }
   void read(const Value& value, const std::string& path, std::vector<Item>& out, Mistakes& mistakes) const {
-    if (value.kind != Value::Kind::list) return wrong_kind(value, path, "a list of tables", "[[" + path + "]]", mistakes);
+    if (value.kind != Value::Kind::list)
+      return wrong_kind(value, path, "a list of tables", "[[" + path + "]]", mistakes);
     for (std::size_t i = 0; i < value.items.size(); ++i) {
       read_table(schema(), value.items[i], join(path, std::to_string(i)), out.emplace_back(), mistakes);
     }
   }
   void check(const std::vector<Item>& value, const std::string& path, Mistakes& mistakes) const {
-    for (std::size_t i = 0; i < value.size(); ++i) check_table(schema(), value[i], join(path, std::to_string(i)), mistakes);
+    for (std::size_t i = 0; i < value.size(); ++i)
+      check_table(schema(), value[i], join(path, std::to_string(i)), mistakes);
   }
   [[nodiscard]] std::string write(const std::vector<Item>& value, const std::string& path) const {
     std::string out;

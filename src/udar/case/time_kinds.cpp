@@ -10,8 +10,8 @@ namespace {
 Schema<TimeTable> table_schema(const QuantityKind& each) {
   return {.keys = {
               key("times", &TimeTable::times, ListKind{{dimension::time}}, "rising times", required),
-              key("values", &TimeTable::values, ListKind{each}, "value at each time; before the first and after the last it stays",
-                  required),
+              key("values", &TimeTable::values, ListKind{each},
+                  "value at each time; before the first and after the last it stays", required),
               key("shape", &TimeTable::shape, WordKind{{"linear", "smooth"}},
                   "straight lines between the points, or curves without a jump in velocity or acceleration"),
           }};
@@ -54,7 +54,8 @@ void TimeTableKind::check(const TimeTable& value, const std::string& path, Mista
   for (std::size_t i = 1; i < value.times.size(); ++i) {
     if (value.times[i] > value.times[i - 1]) continue;
     mistakes.add_unless_touched({join(join(path, "times"), std::to_string(i)), "times do not rise",
-                                 "this is not later than the time before it", "give the times in order, each one once"});
+                                 "this is not later than the time before it",
+                                 "give the times in order, each one once"});
   }
 }
 
@@ -79,7 +80,8 @@ void WindowKind::read(const Value& value, const std::string& path, Window& out, 
 void WindowKind::check(const Window& value, const std::string& path, Mistakes& mistakes) const {
   QuantityKind{dimension::time}.check(value.begin, join(path, "0"), mistakes);
   if (value.end > value.begin) return;
-  mistakes.add_unless_touched({path, "empty window", "it ends before it begins or with it", "give the earlier time first"});
+  mistakes.add_unless_touched(
+      {path, "empty window", "it ends before it begins or with it", "give the earlier time first"});
 }
 
 std::string WindowKind::write(const Window& value) const {

@@ -10,8 +10,8 @@
 namespace udar {
 
 /// Elastic, perfectly plastic by the largest shear stress: no two of the three principal stresses may differ by more
-/// than the tensile yield stress (Tresca 1864; Shtein and Zylev 2025, conditions (1)-(3)). The out-of-plane stress takes
-/// part. Mean stress is never changed by flow.
+/// than the tensile yield stress (Tresca 1864; Shtein and Zylev 2025, conditions (1)-(3)). The out-of-plane stress
+/// takes part. Mean stress is never changed by flow.
 struct Tresca {
   static constexpr const char* keyword = "tresca";
   static constexpr const char* doc = "elastic, then perfectly plastic by the largest shear stress";
@@ -48,9 +48,9 @@ struct Tresca {
     const Real middle = larger(p2, smaller(p1, p3));
     const Real sum = p1 + p2 + p3;
 
-    const Real face = Real(0.5) * (largest + smallest - y);     // lower bound when a face is crossed
-    const Real upper_edge = third * (sum + y) - y;              // largest and middle equal
-    const Real lower_edge = third * (sum - y);                  // middle and smallest equal
+    const Real face = Real(0.5) * (largest + smallest - y);  // lower bound when a face is crossed
+    const Real upper_edge = third * (sum + y) - y;           // largest and middle equal
+    const Real lower_edge = third * (sum - y);               // middle and smallest equal
     const Real bound = select(middle > face + y, upper_edge, select(middle < face, lower_edge, face));
     const auto flows = largest - smallest > y;
     const Real low = select(flows, bound, smallest);

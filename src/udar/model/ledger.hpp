@@ -13,12 +13,12 @@ inline constexpr std::size_t force_kinds = 8;
 
 /// The account of one kind of force.
 struct ForceBook {
-  Vec2 force{};                       ///< N, sum over the nodes at t_n
-  std::array<Vec2, 3> past{};         ///< N, the same at the last three times, for the Adams integrators
-  CompensatedSum impulse_x;           ///< N s, through the velocity that is current
+  Vec2 force{};                ///< N, sum over the nodes at t_n
+  std::array<Vec2, 3> past{};  ///< N, the same at the last three times, for the Adams integrators
+  CompensatedSum impulse_x;    ///< N s, through the velocity that is current
   CompensatedSum impulse_y;
-  CompensatedSum work;                ///< J, through the middle of the coming step
-  double work_now = 0;                ///< J, through t_n
+  CompensatedSum work;  ///< J, through the middle of the coming step
+  double work_now = 0;  ///< J, through t_n
 
   [[nodiscard]] Vec2 impulse() const { return {impulse_x.value(), impulse_y.value()}; }
 };
@@ -41,21 +41,21 @@ struct Ledger {
   double obstacle_work_now = 0;   ///< J, through t_n
 
   // Node side.
-  double start_energy = 0;        ///< J, kinetic and in contact springs at t = 0
-  double start_kinetic = 0;       ///< J
-  double kinetic_energy = 0;      ///< J at t_n, sum m v_{n-1/2} . v_{n+1/2} / 2
-  double half_step_kinetic = 0;   ///< J, sum m v_{n+1/2}^2 / 2
-  Vec2 carried{};                 ///< kg m/s, sum of m (x_{n+1} - x_n) / h
-  Vec2 momentum{};                ///< kg m/s, what the impulses add up to: at t_{n+1/2} for central difference, else t_n
-  Vec2 start_momentum{};          ///< kg m/s
-  double momentum_scale = 0;      ///< kg m/s, sum m |v| at t = 0
-  double spin = 0;                ///< kg m2/s, spin momentum about the origin
+  double start_energy = 0;       ///< J, kinetic and in contact springs at t = 0
+  double start_kinetic = 0;      ///< J
+  double kinetic_energy = 0;     ///< J at t_n, sum m v_{n-1/2} . v_{n+1/2} / 2
+  double half_step_kinetic = 0;  ///< J, sum m v_{n+1/2}^2 / 2
+  Vec2 carried{};                ///< kg m/s, sum of m (x_{n+1} - x_n) / h
+  Vec2 momentum{};               ///< kg m/s, what the impulses add up to: at t_{n+1/2} for central difference, else t_n
+  Vec2 start_momentum{};         ///< kg m/s
+  double momentum_scale = 0;     ///< kg m/s, sum m |v| at t = 0
+  double spin = 0;               ///< kg m2/s, spin momentum about the origin
   CompensatedSum external_throughput;  ///< J, integral of |external power|
 
   // How far the accounts are apart: the largest so far.
-  double energy_gap = 0;     ///< J, physical balance
-  double identity_gap = 0;   ///< J, work-kinetic identity (central difference)
-  double momentum_gap = 0;   ///< kg m/s
+  double energy_gap = 0;    ///< J, physical balance
+  double identity_gap = 0;  ///< J, work-kinetic identity (central difference)
+  double momentum_gap = 0;  ///< kg m/s
 
   [[nodiscard]] ForceBook& book(ForceKind kind) { return books[static_cast<std::size_t>(kind)]; }
   [[nodiscard]] const ForceBook& book(ForceKind kind) const { return books[static_cast<std::size_t>(kind)]; }

@@ -49,8 +49,8 @@ struct NodeBlock {
 
 inline constexpr Index elements_per_block = 128;
 inline constexpr Index nodes_per_block = 256;
-inline constexpr Index lanes = 8;           ///< element arrays are padded to this
-inline constexpr Index padding_nodes = 3;   ///< corners of the padding triangle, after the last node
+inline constexpr Index lanes = 8;          ///< element arrays are padded to this
+inline constexpr Index padding_nodes = 3;  ///< corners of the padding triangle, after the last node
 
 /// A rigid obstacle and the springs between it and the nodes that may touch it.
 struct Obstacle {
@@ -72,11 +72,11 @@ struct Support {
   std::vector<Index> nodes;
   bool holds_x = false;
   bool holds_y = false;
-  bool turns = false;   ///< rigidly about `centre`; then x and y are both held
-  TimeTable move_x;     ///< m
-  TimeTable move_y;     ///< m
-  TimeTable turn;       ///< rad
-  Vec2 centre{};        ///< m
+  bool turns = false;  ///< rigidly about `centre`; then x and y are both held
+  TimeTable move_x;    ///< m
+  TimeTable move_y;    ///< m
+  TimeTable turn;      ///< rad
+  Vec2 centre{};       ///< m
 };
 
 /// Forces at nodes: `value` times `share` at each (constant direction), or a pressure on edges that turns with them.
@@ -131,18 +131,18 @@ struct Model {
 
   // Nodes, then the padding nodes.
   Index node_count = 0;
-  std::vector<Vec2> rest;                    ///< m, undeformed places
-  std::vector<Vec2> start_velocity;          ///< m/s
-  std::vector<double> mass;                  ///< kg
-  std::vector<double> inverse_mass;          ///< 1/kg
-  std::vector<Index> node_numbers;           ///< the user's numbers, from 0 in each body
-  NodeCorners node_corners;                  ///< which corner forces a node sums, in element order
+  std::vector<Vec2> rest;            ///< m, undeformed places
+  std::vector<Vec2> start_velocity;  ///< m/s
+  std::vector<double> mass;          ///< kg
+  std::vector<double> inverse_mass;  ///< 1/kg
+  std::vector<Index> node_numbers;   ///< the user's numbers, from 0 in each body
+  NodeCorners node_corners;          ///< which corner forces a node sums, in element order
 
   // Elements, padded.
   Index element_count = 0;  ///< without padding
   std::vector<std::array<Index, 3>> corners;
-  std::vector<double> area_density;          ///< kg/m: density x undeformed area, constant since masses are
-  std::vector<Index> element_numbers;        ///< the user's numbers
+  std::vector<double> area_density;    ///< kg/m: density x undeformed area, constant since masses are
+  std::vector<Index> element_numbers;  ///< the user's numbers
 
   // Contact: the outer nodes of all bodies may touch every obstacle.
   std::vector<Index> contact_nodes;

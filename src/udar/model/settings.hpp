@@ -22,13 +22,13 @@ struct MassDamping {
 };
 
 struct RunSettings {
-  double end_time = 0;                ///< s
+  double end_time = 0;  ///< s
   Integrator integrator = Integrator::central_difference;
-  std::optional<double> time_step;    ///< s; none: automatic
-  double step_safety = 0.9;           ///< automatic step over stable limit
+  std::optional<double> time_step;  ///< s; none: automatic
+  double step_safety = 0.9;         ///< automatic step over stable limit
   WhenUnstable when_unstable = WhenUnstable::shorten;
-  double stop_at_energy_error = 0.05; ///< the run stops when the energy balance is off by more than this part
-  Vec2 gravity{};                     ///< m/s2
+  double stop_at_energy_error = 0.05;  ///< the run stops when the energy balance is off by more than this part
+  Vec2 gravity{};                      ///< m/s2
   MassDamping damping;
 };
 

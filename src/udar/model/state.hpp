@@ -21,33 +21,36 @@ struct alignas(32) NodeRecord {
 
 /// What one obstacle has done to all bodies together.
 struct ObstacleBook {
-  ForceBook total;  ///< contact, friction and damping
-  ForceBook normal;  ///< contact springs and damping: without friction
+  ForceBook total;             ///< contact, friction and damping
+  ForceBook normal;            ///< contact springs and damping: without friction
   std::uint64_t touching = 0;  ///< nodes now
 };
 
 /// What limits the step.
 struct StepLimit {
-  double size = 0;        ///< s, stable limit
+  double size = 0;  ///< s, stable limit
   Index element = 0;
   std::uint32_t by_contact = 0;  ///< 1 where contact springs lower the element's limit
 };
 
 struct Clock {
-  CompensatedSum time;          ///< s, t_n
-  std::uint64_t step = 0;       ///< n
-  double last_step = 0;         ///< s, h_n; 0 at the start
-  double step_before = 0;       ///< s, h_{n-1}
+  CompensatedSum time;            ///< s, t_n
+  std::uint64_t step = 0;         ///< n
+  double last_step = 0;           ///< s, h_n; 0 at the start
+  double step_before = 0;         ///< s, h_{n-1}
   double second_step_before = 0;  ///< s, h_{n-2}
-  double next_step = 0;         ///< s, h_{n+1}
-  double automatic_step = 0;    ///< s, what an automatic step may grow from
-  StepLimit limit;              ///< at t_n
-  double smallest_step = 0;     ///< s
-  double largest_step = 0;      ///< s
-  std::uint64_t shortened = 0;  ///< steps in which a fixed step was above the stable limit
-  double first_shortened = 0;   ///< s
+  double next_step = 0;           ///< s, h_{n+1}
+  double automatic_step = 0;      ///< s, what an automatic step may grow from
+  StepLimit limit;                ///< at t_n
+  double start_limit = 0;         ///< s, stable limit at t = 0
+  StepLimit tightest;             ///< smallest stable limit so far, and what set it
+  double tightest_time = 0;       ///< s
+  double smallest_step = 0;       ///< s
+  double largest_step = 0;        ///< s
+  std::uint64_t shortened = 0;    ///< steps in which a fixed step was above the stable limit
+  double first_shortened = 0;     ///< s
   std::uint64_t first_shortened_element = 0;
-  double largest_excess = 0;    ///< largest step over stable limit
+  double largest_excess = 0;  ///< largest step over stable limit
 };
 
 /// Everything that changes: plain arrays and numbers, no pointer, nothing sized by the number of threads. Only the step
@@ -55,7 +58,7 @@ struct Clock {
 /// that carries the nodes to x_{n+1}.
 struct State {
   Clock clock;
-  std::vector<NodeRecord> nodes;  ///< padding nodes at the end
+  std::vector<NodeRecord> nodes;   ///< padding nodes at the end
   std::vector<Vec2> acceleration;  ///< m/s2, a_n
   std::vector<Vec2> external;      ///< N, contact, loads and supports
 

@@ -94,9 +94,9 @@ Observer observe_momentum(const Model&) {
             const Vec2 supports = l.book(ForceKind::support).impulse();
             const Vec2 damping = l.book(ForceKind::damping).impulse();
             const Vec2 error = l.momentum - l.start_momentum - contact - gravity - loads - supports - damping;
-            const std::array values{l.momentum.x, l.momentum.y, l.spin,     contact.x,  contact.y,
-                                    gravity.x,    gravity.y,    loads.x,    loads.y,    supports.x,
-                                    supports.y,   damping.x,    damping.y,  error.x,    error.y};
+            const std::array values{l.momentum.x, l.momentum.y, l.spin,    contact.x, contact.y,
+                                    gravity.x,    gravity.y,    loads.x,   loads.y,   supports.x,
+                                    supports.y,   damping.x,    damping.y, error.x,   error.y};
             std::copy(values.begin(), values.end(), out.begin());
           }};
 }

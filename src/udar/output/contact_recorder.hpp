@@ -22,23 +22,23 @@ class ContactRecorder {
  private:
   /// An interval with force.
   struct Touch {
-    double begin = 0;                    ///< s
-    double end = 0;                      ///< s; of the last step so far while it lasts
+    double begin = 0;  ///< s
+    double end = 0;    ///< s; of the last step so far while it lasts
     bool over = false;
-    Vec2 impulse_before{};               ///< N s, of the obstacle until then
-    Vec2 impulse_after{};                ///< N s
-    Vec2 normal_before{};                ///< N s, without friction
+    Vec2 impulse_before{};  ///< N s, of the obstacle until then
+    Vec2 impulse_after{};   ///< N s
+    Vec2 normal_before{};   ///< N s, without friction
     Vec2 normal_after{};
-    double peak_force = 0;               ///< N
-    std::vector<Vec2> momentum_before;   ///< kg m/s, body by body
+    double peak_force = 0;              ///< N
+    std::vector<Vec2> momentum_before;  ///< kg m/s, body by body
     std::vector<Vec2> momentum_after;
-    std::vector<bool> touched;           ///< bodies that touched
+    std::vector<bool> touched;  ///< bodies that touched
   };
   /// Impulse so far at a time, thinned when there are many.
   struct Curve {
-    std::vector<double> time;     ///< s
-    std::vector<Vec2> impulse;    ///< N s
-    std::uint64_t every = 1;      ///< steps between two points
+    std::vector<double> time;   ///< s
+    std::vector<Vec2> impulse;  ///< N s
+    std::uint64_t every = 1;    ///< steps between two points
   };
   void touch_step(std::size_t obstacle, const State& state);
   [[nodiscard]] EpisodeSummary episode(std::size_t obstacle, const Touch& first, const Touch& last, double peak,

@@ -37,15 +37,14 @@ Together together(const Model& model, const State& state, const Nodes& nodes, do
   return sum;
 }
 
-const std::vector<Column> together_columns{{"position_x", "m"},       {"position_y", "m"},
-                                           {"velocity_x", "m/s"},     {"velocity_y", "m/s"},
-                                           {"acceleration_x", "m/s^2"}, {"acceleration_y", "m/s^2"},
-                                           {"momentum_x", "kg m/s"},  {"momentum_y", "kg m/s"},
-                                           {"spin", "kg m^2/s"}};
+const std::vector<Column> together_columns{
+    {"position_x", "m"},      {"position_y", "m"},         {"velocity_x", "m/s"},
+    {"velocity_y", "m/s"},    {"acceleration_x", "m/s^2"}, {"acceleration_y", "m/s^2"},
+    {"momentum_x", "kg m/s"}, {"momentum_y", "kg m/s"},    {"spin", "kg m^2/s"}};
 
 void fill(const Together& sum, double mass, std::span<double> out) {
   const Vec2 v = (1 / mass) * sum.momentum;
-  const std::array values{sum.position.x,     sum.position.y, v.x,           v.y, sum.acceleration.x, sum.acceleration.y,
+  const std::array values{sum.position.x, sum.position.y, v.x,     v.y, sum.acceleration.x, sum.acceleration.y,
                           sum.momentum.x, sum.momentum.y, sum.spin};
   std::copy(values.begin(), values.end(), out.begin());
 }

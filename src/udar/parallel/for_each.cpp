@@ -1,5 +1,7 @@
 #include "udar/parallel/for_each.hpp"
 
+#include <algorithm>
+#include <string>
 #include <system_error>
 
 #include "udar/base/error.hpp"
@@ -32,6 +34,10 @@ std::uint32_t wait_for_change(const std::atomic<std::uint32_t>& value, std::uint
 }
 
 }  // namespace
+
+int available_threads() {
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
 
 Pool::Pool(int threads) {
   if (threads < 1) throw UserError(ExitCode::usage, "the number of threads must be 1 or more");

@@ -11,6 +11,9 @@
 
 namespace udar {
 
+/// Threads that the machine runs at once; at least 1.
+int available_threads();
+
 /// Threads that share out the blocks of a loop. Between two loops they spin for a moment, then yield, then sleep: a
 /// pure spin barrier collapses when another job shares the cores, and sleeping at once costs more than a small loop.
 ///

@@ -18,11 +18,11 @@ StepWeights adams_weights(const StepHistory& steps) {
   const double c0 = 1 / (p * q);
   const double c1 = -1 / (p * (q - p));
   const double c2 = 1 / (q * (q - p));
-  return {.implicit = 0,
-          .velocity = {c0 * h * (h2 / 3 + (p + q) * h / 2 + p * q), c1 * h2 * (h / 3 + q / 2),
-                       c2 * h2 * (h / 3 + p / 2)},
-          .mean = {c0 * h * (h2 / 12 + (p + q) * h / 6 + p * q / 2), c1 * h2 * (h / 12 + q / 6),
-                   c2 * h2 * (h / 12 + p / 6)}};
+  return {
+      .implicit = 0,
+      .velocity = {c0 * h * (h2 / 3 + (p + q) * h / 2 + p * q), c1 * h2 * (h / 3 + q / 2), c2 * h2 * (h / 3 + p / 2)},
+      .mean = {c0 * h * (h2 / 12 + (p + q) * h / 6 + p * q / 2), c1 * h2 * (h / 12 + q / 6),
+               c2 * h2 * (h / 12 + p / 6)}};
 }
 
 StepWeights adams2_weights(const StepHistory& steps) {

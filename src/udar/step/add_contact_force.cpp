@@ -39,8 +39,7 @@ ObstacleSums touch_obstacle(const Model& model, State& state, const Obstacle& ob
     state.external[node] += springs[c].normal_force + springs[c].friction_force + springs[c].damping_force;
     sums.normal_energy += 0.5 * stiffness.normal * springs[c].penetration * springs[c].penetration;
     sums.tangential_energy += tangential_energy(springs[c], stiffness);
-    sums.largest_penetration =
-        std::max(sums.largest_penetration, springs[c].penetration / model.contact_node_sizes[c]);
+    sums.largest_penetration = std::max(sums.largest_penetration, springs[c].penetration / model.contact_node_sizes[c]);
   }
   return sums;
 }
@@ -57,9 +56,9 @@ void add_contact_force(const Model& model, State& state) {
   SpringState* springs = state.contacts.data();
   for (std::size_t o = 0; o < model.obstacles.size(); ++o, springs += model.contact_nodes.size()) {
     const Obstacle& obstacle = model.obstacles[o];
-    const ObstacleSums sums = std::visit(
-        [&](const auto& shape) { return touch_obstacle(model, state, obstacle, shape, springs, losses); },
-        obstacle.prepared);
+    const ObstacleSums sums =
+        std::visit([&](const auto& shape) { return touch_obstacle(model, state, obstacle, shape, springs, losses); },
+                   obstacle.prepared);
     state.obstacles[o].touching = sums.touching;
     ledger.contact_energy += sums.normal_energy;
     ledger.tangential_energy += sums.tangential_energy;

@@ -18,8 +18,7 @@ void add_support_force(const Model& model, State& state, Workspace& work) {
       const NodeRecord& record = state.nodes[node];
       const Vec2 before{record.vx, record.vy};
       const Vec2 rest = model.rest[node];
-      const Vec2 target =
-          support.turns ? support.centre + turn * (rest - support.centre) : rest + displacement;
+      const Vec2 target = support.turns ? support.centre + turn * (rest - support.centre) : rest + displacement;
       const Vec2 wanted = (1 / clock.next_step) * (target - Vec2{record.x, record.y});
       const Vec2 force = internal_force(model, work, node) + state.external[node] +
                          model.mass[node] * model.run.gravity +

@@ -89,6 +89,11 @@ double automatic_step(const Model& model, Clock& clock) {
 void choose_time_step(const Model& model, State& state, Workspace& work) {
   Clock& clock = state.clock;
   clock.limit = stable_limit(model, state, work);
+  if (clock.step == 0) clock.start_limit = clock.limit.size;
+  if (clock.step == 0 || clock.limit.size < clock.tightest.size) {
+    clock.tightest = clock.limit;
+    clock.tightest_time = clock.time.value();
+  }
   const double step = model.run.time_step ? fixed_step(model, clock) : automatic_step(model, clock);
   const double left = model.run.end_time - clock.time.value();
   // The last step ends on the end time; a remainder too small to be a step of its own is taken along.

@@ -34,7 +34,8 @@ class Booking {
   Booking(const Model& model, const State& state) : state_(state), rule_(rule_of(model.run.integrator)) {
     const Clock& clock = state.clock;
     span_ = velocity_span(clock);
-    // Central difference: m (v+^2 - v-^2) / 2 = f . span (v- + v+) / 2 exactly. The Adams family: trapezoids over steps.
+    // Central difference: m (v+^2 - v-^2) / 2 = f . span (v- + v+) / 2 exactly. The Adams family: trapezoids over
+    // steps.
     before_ = rule_.weights == nullptr ? 0.5 * span_ : 0.5 * clock.last_step;
     after_ = rule_.weights == nullptr ? 0.5 * span_ : 0.5 * clock.next_step;
     if (rule_.weights != nullptr && clock.step > 0) {
@@ -193,8 +194,7 @@ void close_books(const Model& model, State& state, Workspace& work) {
   }
   ledger.identity_gap =
       std::max(ledger.identity_gap, std::fabs(ledger.half_step_kinetic - ledger.start_kinetic - node_work));
-  ledger.momentum_gap =
-      std::max(ledger.momentum_gap, length(ledger.momentum - ledger.start_momentum - impulses));
+  ledger.momentum_gap = std::max(ledger.momentum_gap, length(ledger.momentum - ledger.start_momentum - impulses));
 
   // In the very first steps there is hardly any energy to compare with where a body starts from rest.
   constexpr std::uint64_t first_judged = 100;

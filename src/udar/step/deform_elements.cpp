@@ -126,8 +126,8 @@ void deform_pack(Index i, const BlockSides& sides, const BlockStress& block, con
 }
 
 template <class Law>
-ElementSums deform_block(const Model& model, State& state, const ElementBlock& block, const Law& law,
-                         double thickness, Vec2* corner_force) {
+ElementSums deform_block(const Model& model, State& state, const ElementBlock& block, const Law& law, double thickness,
+                         Vec2* corner_force) {
   const Index count = block.end - block.begin;
   const Index first = block.begin;
   BlockSides sides;

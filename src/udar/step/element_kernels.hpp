@@ -21,9 +21,9 @@ struct Sides {
 /// Strain increment of a step and the turn that goes with it.
 template <class Real>
 struct StrainStep {
-  Real xx, yy, xy2;      ///< e_x, e_y and g_xy = 2 e_xy
-  Real cos, sin;         ///< turn of the material
-  Real twice_area;       ///< m2, of the triangle in the middle of the step
+  Real xx, yy, xy2;  ///< e_x, e_y and g_xy = 2 e_xy
+  Real cos, sin;     ///< turn of the material
+  Real twice_area;   ///< m2, of the triangle in the middle of the step
 };
 
 /// Strain increment from the sides at the end of the step and their change during it, with gradients on the triangle
@@ -61,8 +61,8 @@ template <class Real>
 SymTensor<Real> elastic_trial(const SymTensor<Real>& s, const StrainStep<Real>& e, const Elasticity& elasticity) {
   const Real pressure = Real(elasticity.lambda) * (e.xx + e.yy);
   const Real two_g(2 * elasticity.shear_modulus);
-  return {s.xx + pressure + two_g * e.xx, s.yy + pressure + two_g * e.yy,
-          s.xy + Real(elasticity.shear_modulus) * e.xy2, s.zz + pressure};
+  return {s.xx + pressure + two_g * e.xx, s.yy + pressure + two_g * e.yy, s.xy + Real(elasticity.shear_modulus) * e.xy2,
+          s.zz + pressure};
 }
 
 /// Work of the stresses in the step per volume, J/m3: (s_n + s_{n+1}) : de / 2 with s_n before the turn.

@@ -83,24 +83,25 @@ void fail_unstable(const Model& model, const Clock& clock) {
 }
 
 void fail_collapsing_step(const Model& model, const State& state) {
-  throw NumericalError(fmt::format(
-      "the stable step collapsed to {:.3g} s {}: {}.\n"
-      "  Likely cause: the element is crushed flat.\n"
-      "  Cure: a coarser mesh there, or a rounder obstacle.",
-      state.clock.next_step, when(state.clock), element_text(model, state, state.clock.limit.element)));
+  throw NumericalError(
+      fmt::format("the stable step collapsed to {:.3g} s {}: {}.\n"
+                  "  Likely cause: the element is crushed flat.\n"
+                  "  Cure: a coarser mesh there, or a rounder obstacle.",
+                  state.clock.next_step, when(state.clock), element_text(model, state, state.clock.limit.element)));
 }
 
 void fail_energy(const Model& model, const State& state) {
   const Ledger& ledger = state.ledger;
-  throw NumericalError(fmt::format(
-      "the energy books are {:.3g} % apart {}; the case allows {:.3g} %.\n"
-      "  Kinetic {:.6g} J, elastic {:.6g} J, plastic {:.6g} J, contact {:.6g} J, friction {:.6g} J; started with {:.6g} "
-      "J, work from outside {:.6g} J.\n"
-      "  Likely cause: the step is too large for {} elements or for the contact springs.\n"
-      "  Cure: time_step = \"auto\" with a smaller step_safety, or softer contact springs.",
-      100 * ledger.energy_error(), when(state.clock), 100 * model.run.stop_at_energy_error, ledger.kinetic_energy,
-      ledger.elastic_energy(), ledger.plastic_work.value(), ledger.contact_energy, ledger.friction_work.value(),
-      ledger.start_energy, ledger.external_work(), "crushed"));
+  throw NumericalError(
+      fmt::format("the energy books are {:.3g} % apart {}; the case allows {:.3g} %.\n"
+                  "  Kinetic {:.6g} J, elastic {:.6g} J, plastic {:.6g} J, contact {:.6g} J, friction {:.6g} J; "
+                  "started with {:.6g} "
+                  "J, work from outside {:.6g} J.\n"
+                  "  Likely cause: the step is too large for {} elements or for the contact springs.\n"
+                  "  Cure: time_step = \"auto\" with a smaller step_safety, or softer contact springs.",
+                  100 * ledger.energy_error(), when(state.clock), 100 * model.run.stop_at_energy_error,
+                  ledger.kinetic_energy, ledger.elastic_energy(), ledger.plastic_work.value(), ledger.contact_energy,
+                  ledger.friction_work.value(), ledger.start_energy, ledger.external_work(), "crushed"));
 }
 
 }  // namespace udar

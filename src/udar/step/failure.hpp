@@ -1,7 +1,7 @@
 #pragma once
 
-#include "udar/model/state.hpp"
 #include "udar/model/model.hpp"
+#include "udar/model/state.hpp"
 
 namespace udar {
 

@@ -5,8 +5,8 @@
 
 namespace udar {
 
-/// Mass damping of a node, N, before its velocity is carried on. It takes the velocity of the step that just ended, half
-/// a step late, so that the scheme stays explicit.
+/// Mass damping of a node, N, before its velocity is carried on. It takes the velocity of the step that just ended,
+/// half a step late, so that the scheme stays explicit.
 inline Vec2 damping_force(const Model& model, const State& state, Index node, double rate, Vec2 mean_velocity) {
   const NodeRecord& r = state.nodes[node];
   return (-rate * model.mass[node]) * (Vec2{r.vx, r.vy} - mean_velocity);

@@ -9,10 +9,10 @@ namespace udar {
 
 /// Sums of one element block, added up in the order of blocks: the same bits for any number of threads.
 struct ElementSums {
-  double stress_work = 0;       ///< J
-  double plastic_work = 0;      ///< J
-  double frequency_squared = 0; ///< 1/s2, largest of the block
-  double smallest_area = 0;     ///< m2, twice the smallest area of the block, in the middle or at the end of the step
+  double stress_work = 0;        ///< J
+  double plastic_work = 0;       ///< J
+  double frequency_squared = 0;  ///< 1/s2, largest of the block
+  double smallest_area = 0;      ///< m2, twice the smallest area of the block, in the middle or at the end of the step
 };
 
 /// Sums of one node block.

@@ -18,8 +18,12 @@ namespace {
 template <class T>
 using Expected = tl::expected<T, UnitError>;
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '%'; }
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '%';
+}
 
 /// What a keyboard or a word processor may put in place of the plain signs.
 std::string plain_signs(std::string_view text) {
@@ -163,7 +167,8 @@ class UnitReader {
   }
 
   tl::unexpected<UnitError> ambiguous() const {
-    return tl::unexpected(UnitError{"ambiguous unit", "it could be read in two ways: is it divided by all that follows?",
+    return tl::unexpected(UnitError{"ambiguous unit",
+                                    "it could be read in two ways: is it divided by all that follows?",
                                     "use parentheses or a second `/`: \"N/(m s)\", \"m/s/s\""});
   }
 
@@ -206,7 +211,8 @@ std::string repaired(std::string_view number, std::string_view unit, Dimension n
   const bool technical = unit.find("gf") != std::string_view::npos || unit.find("tf") != std::string_view::npos;
   std::vector<std::string> candidates;
   if (technical) candidates = {fmt::format("{}/cm^2", unit), fmt::format("{}/cm", unit)};
-  for (const char* end : {"^2", "^3", "/s", "/s^2", "/m", "/m^2", "/m^3"}) candidates.push_back(fmt::format("{}{}", unit, end));
+  for (const char* end : {"^2", "^3", "/s", "/s^2", "/m", "/m^2", "/m^3"})
+    candidates.push_back(fmt::format("{}{}", unit, end));
   for (const char sign : {'^', '/'}) {
     if (const auto at = unit.rfind(sign); at != std::string_view::npos) candidates.emplace_back(unit.substr(0, at));
   }
@@ -224,8 +230,8 @@ struct Split {
 
 Expected<Split> split(std::string_view text) {
   if (text.size() > longest_quantity) {
-    return tl::unexpected(
-        UnitError{"unreadable value", fmt::format("{} characters are too many for a number and a unit", text.size()), ""});
+    return tl::unexpected(UnitError{
+        "unreadable value", fmt::format("{} characters are too many for a number and a unit", text.size()), ""});
   }
   const std::string plain = plain_signs(text);
   const std::string_view whole = trimmed(plain);
@@ -277,7 +283,9 @@ Expected<Quantity> evaluate(const Split& parts) {
 
 }  // namespace
 
-tl::expected<Quantity, UnitError> parse_quantity(std::string_view text) { return split(text).and_then(evaluate); }
+tl::expected<Quantity, UnitError> parse_quantity(std::string_view text) {
+  return split(text).and_then(evaluate);
+}
 
 tl::expected<double, UnitError> parse_si(std::string_view text, Dimension needed) {
   const Expected<Split> parts = split(text);
@@ -292,16 +300,17 @@ tl::expected<double, UnitError> parse_si(std::string_view text, Dimension needed
   if (fits(quantity->dimension, needed)) return quantity->value;
 
   const std::string better = needed == dimension::number ? parts->number : repaired(parts->number, parts->unit, needed);
-  return tl::unexpected(
-      UnitError{"wrong unit",
-                fmt::format("this is {}; {} is needed", dimension_name(quantity->dimension), dimension_name(needed)),
-                better.empty() ? fmt::format("write it like {}", example_of(needed)) : fmt::format("did you mean {}?", better)});
+  return tl::unexpected(UnitError{
+      "wrong unit",
+      fmt::format("this is {}; {} is needed", dimension_name(quantity->dimension), dimension_name(needed)),
+      better.empty() ? fmt::format("write it like {}", example_of(needed)) : fmt::format("did you mean {}?", better)});
 }
 
 UnitError missing_unit(std::string_view number, Dimension needed) {
   const std::string reason = dimension_name(needed) + " is needed";
   // Whoever leaves the unit of an angle out hardly thinks of radians.
-  if (needed == dimension::angle) return {"missing unit", reason, fmt::format("write \"{0} deg\" or \"{0} rad\"", number)};
+  if (needed == dimension::angle)
+    return {"missing unit", reason, fmt::format("write \"{0} deg\" or \"{0} rad\"", number)};
   return {"missing unit", reason, fmt::format("in SI units write \"{} {}\"", number, si_unit(needed))};
 }
 

@@ -13,7 +13,7 @@ struct Prefix {
   Scale scale;
 };
 
-constexpr Prefix prefixes[] = {{'G', {1e9, 1}}, {'M', {1e6, 1}},  {'k', {1e3, 1}},  {'h', {100, 1}}, {'d', {1, 10}},
+constexpr Prefix prefixes[] = {{'G', {1e9, 1}}, {'M', {1e6, 1}},  {'k', {1e3, 1}}, {'h', {100, 1}}, {'d', {1, 10}},
                                {'c', {1, 100}}, {'m', {1, 1000}}, {'u', {1, 1e6}}, {'n', {1, 1e9}}};
 
 struct NamedUnit {

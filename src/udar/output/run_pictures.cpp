@@ -1,0 +1,84 @@
+#include "udar/output/run_pictures.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "udar/output/frame_writer.hpp"
+#include "udar/output/observer.hpp"
+
+namespace udar {
+namespace {
+
+Picture bodies_and_obstacles(const Model& model, const State& state, const std::string& title) {
+  Picture picture;
+  picture.title = title;
+  for (Index i = 0; i < model.node_count; ++i) picture.points.push_back({state.nodes[i].x, state.nodes[i].y});
+  for (const Body& body : model.bodies) {
+    for (Index e = body.element_begin; e < body.element_end; ++e) {
+      const auto& c = model.corners[e];
+      picture.triangles.push_back(
+          {static_cast<std::int32_t>(c[0]), static_cast<std::int32_t>(c[1]), static_cast<std::int32_t>(c[2])});
+    }
+  }
+  picture.obstacles = obstacle_outlines(model, state);
+  return picture;
+}
+
+Vec2 centroid(const Model& model, const State& state, Index element) {
+  Vec2 sum;
+  for (const Index c : model.corners[element]) sum += Vec2{state.nodes[c].x, state.nodes[c].y};
+  return (1.0 / 3.0) * sum;
+}
+
+}  // namespace
+
+Picture setup_picture(const Model& model, const State& state, const std::string& title) {
+  Picture picture = bodies_and_obstacles(model, state, title);
+  picture.subtitle = fmt::format("{} elements, {} nodes", model.element_count, model.node_count);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    Vec2 centre;
+    Vec2 momentum;
+    for (Index i = body.node_begin; i < body.node_end; ++i) {
+      centre += (model.mass[i] / body.mass) * model.rest[i];
+      momentum += model.mass[i] * model.start_velocity[i];
+    }
+    const Vec2 v = (1 / body.mass) * momentum;
+    if (length(v) > 0) picture.arrows.push_back({centre, v, fmt::format("{}: {:.4g} m/s", body.name, length(v))});
+  }
+  for (const NodeObserver& node : model.observed_nodes) picture.markers.push_back({model.rest[node.node], node.name});
+  for (const ElementObserver& element : model.observed_elements) {
+    picture.markers.push_back({centroid(model, state, element.element), element.name});
+  }
+  for (const Support& support : model.supports) {
+    for (const Index node : support.nodes) {
+      picture.supports.push_back({model.rest[node], support.holds_x, support.holds_y});
+    }
+  }
+  return picture;
+}
+
+Picture state_picture(const Model& model, const State& state, const std::string& title) {
+  Picture picture = bodies_and_obstacles(model, state, title);
+  picture.subtitle = fmt::format("t = {:.4g} ms", 1e3 * state.clock.time.value());
+  const bool flowed =
+      std::any_of(state.plastic_strain.begin(), state.plastic_strain.end(), [](double p) { return p > 0; });
+  PictureField field{.name = flowed ? "plastic strain" : "largest shear stress", .unit = flowed ? "" : "MPa"};
+  for (const Body& body : model.bodies) {
+    for (Index e = body.element_begin; e < body.element_end; ++e) {
+      const auto p = principal_stresses(state, e);
+      field.values.push_back(flowed ? state.plastic_strain[e] : 0.5e-6 * (p[0] - p[2]));
+    }
+  }
+  // A handful of crushed elements would leave everything else in one colour.
+  std::vector<double> sorted = field.values;
+  const auto nearly_all = sorted.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(sorted.size() - 1));
+  std::nth_element(sorted.begin(), nearly_all, sorted.end());
+  field.min = 0;
+  if (*nearly_all > 0) field.max = *nearly_all;
+  picture.field = std::move(field);
+  return picture;
+}
+
+}  // namespace udar
