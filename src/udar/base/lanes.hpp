@@ -3,7 +3,13 @@
 #include <cmath>
 
 #if defined(__SSE2__)
-#include <emmintrin.h>
+#include <immintrin.h>
+#endif
+
+// The instruction set that the including unit is compiled for. It names a namespace, so that functions compiled for one
+// never take the place of those for another when the program is linked.
+#ifndef UDAR_ISA
+#define UDAR_ISA baseline
 #endif
 
 namespace udar {
@@ -13,24 +19,33 @@ namespace udar {
 // many lanes there are.
 
 /// `a` where the mask holds, else `b`.
-inline double select(bool mask, double a, double b) { return mask ? a : b; }
-inline double larger(double a, double b) { return a > b ? a : b; }
-inline double smaller(double a, double b) { return a < b ? a : b; }
+[[gnu::always_inline]] inline double select(bool mask, double a, double b) { return mask ? a : b; }
+[[gnu::always_inline]] inline double larger(double a, double b) { return a > b ? a : b; }
+[[gnu::always_inline]] inline double smaller(double a, double b) { return a < b ? a : b; }
 
-/// Lanes of one vector register of any x86-64 or 64-bit ARM: two doubles. GCC's and clang's vector extension, not left
-/// to the compiler's own vectoriser, which gives up on loops as long as ours without saying so.
+inline namespace UDAR_ISA {
+
+/// As many doubles as one vector register holds. GCC's and clang's vector extension: not left to the compiler's own
+/// vectoriser, which gives up on loops as long as ours without saying so.
 struct Pack {
+#if defined(__AVX512F__)
+  static constexpr int lanes = 8;
+#elif defined(__AVX2__)
+  static constexpr int lanes = 4;
+#else
   static constexpr int lanes = 2;
+#endif
   using Vector = double __attribute__((vector_size(lanes * sizeof(double))));
+  using Unaligned = double __attribute__((vector_size(lanes * sizeof(double)), aligned(8), may_alias));
   using Mask = decltype(Vector{} > Vector{});
   Vector v;
 
   Pack() = default;
   Pack(Vector vector) : v(vector) {}
-  explicit Pack(double s) : v{s, s} {}
+  explicit Pack(double s) : v(Vector{} + s) {}
 
-  static Pack load(const double* from) { return Pack(*reinterpret_cast<const Vector*>(from)); }
-  void store(double* to) const { *reinterpret_cast<Vector*>(to) = v; }
+  static Pack load(const double* from) { return Pack(Vector(*reinterpret_cast<const Unaligned*>(from))); }
+  void store(double* to) const { *reinterpret_cast<Unaligned*>(to) = v; }
 
   friend Pack operator+(Pack a, Pack b) { return a.v + b.v; }
   friend Pack operator-(Pack a, Pack b) { return a.v - b.v; }
@@ -45,12 +60,18 @@ struct Pack {
   friend Pack smaller(Pack a, Pack b) { return a.v < b.v ? a.v : b.v; }
   friend Pack fabs(Pack a) { return a.v < 0 ? -a.v : a.v; }
   friend Pack sqrt(Pack a) {
-#if defined(__SSE2__)
+#if defined(__AVX512F__)
+    return Vector(_mm512_sqrt_pd(a.v));
+#elif defined(__AVX2__)
+    return Vector(_mm256_sqrt_pd(a.v));
+#elif defined(__SSE2__)
     return Vector(_mm_sqrt_pd(a.v));
 #else
     return Vector{std::sqrt(a.v[0]), std::sqrt(a.v[1])};
 #endif
   }
 };
+
+}  // namespace UDAR_ISA
 
 }  // namespace udar

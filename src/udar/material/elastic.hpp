@@ -18,7 +18,7 @@ struct Elastic {
 
   static std::vector<Parameter<Elastic>> parameters() { return elastic_parameters<Elastic>(); }
 
-  [[nodiscard]] Elasticity elasticity() const { return elasticity_of(young_modulus, poisson_ratio); }
+  [[nodiscard, gnu::always_inline]] Elasticity elasticity() const { return elasticity_of(young_modulus, poisson_ratio); }
 
   /// Stress at the end of the step from the elastic trial stress; nothing is dissipated.
   template <class Real>
@@ -26,7 +26,7 @@ struct Elastic {
     return {trial, Real(0)};
   }
   /// Plastic strain that goes with plastic work (J/m3): none.
-  [[nodiscard]] double plastic_strain_of_work() const { return 0; }
+  [[nodiscard, gnu::always_inline]] double plastic_strain_of_work() const { return 0; }
 };
 
 }  // namespace udar

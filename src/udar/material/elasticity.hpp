@@ -13,11 +13,12 @@ struct Elasticity {
   double shear_modulus = 0;
 
   /// lambda + 2 G: modulus of uniaxial strain; the fastest wave runs at sqrt(modulus / density).
-  [[nodiscard]] constexpr double wave_modulus() const { return lambda + 2 * shear_modulus; }
-  [[nodiscard]] constexpr double bulk_modulus() const { return lambda + 2 * shear_modulus / 3; }
+  [[nodiscard, gnu::always_inline]] constexpr double wave_modulus() const { return lambda + 2 * shear_modulus; }
+  [[nodiscard, gnu::always_inline]] constexpr double bulk_modulus() const { return lambda + 2 * shear_modulus / 3; }
 };
 
-constexpr Elasticity elasticity_of(double young_modulus, double poisson_ratio) {
+// Always inlined here and in the laws: these are also used where code is compiled for one instruction set only.
+[[gnu::always_inline]] constexpr Elasticity elasticity_of(double young_modulus, double poisson_ratio) {
   return {young_modulus * poisson_ratio / ((1 + poisson_ratio) * (1 - 2 * poisson_ratio)),
           young_modulus / (2 * (1 + poisson_ratio))};
 }

@@ -27,7 +27,7 @@ struct Tresca {
     return all;
   }
 
-  [[nodiscard]] Elasticity elasticity() const { return elasticity_of(young_modulus, poisson_ratio); }
+  [[nodiscard, gnu::always_inline]] Elasticity elasticity() const { return elasticity_of(young_modulus, poisson_ratio); }
 
   /// Returns the trial stress to the yield surface along its normal. All principal stresses end between two bounds
   /// yield_stress apart: those of the face crossed by the largest difference or, where the middle one would then lie
@@ -70,7 +70,7 @@ struct Tresca {
             select(flows, work, Real(0))};
   }
   /// Equivalent plastic strain that goes with plastic work per volume (work-conjugate: work / yield stress), m3/J.
-  [[nodiscard]] double plastic_strain_of_work() const { return 1 / yield_stress; }
+  [[nodiscard, gnu::always_inline]] double plastic_strain_of_work() const { return 1 / yield_stress; }
 };
 
 }  // namespace udar

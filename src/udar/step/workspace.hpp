@@ -4,16 +4,9 @@
 
 #include "udar/model/model.hpp"
 #include "udar/parallel/for_each.hpp"
+#include "udar/step/deform_block.hpp"
 
 namespace udar {
-
-/// Sums of one element block, added up in the order of blocks: the same bits for any number of threads.
-struct ElementSums {
-  double stress_work = 0;        ///< J
-  double plastic_work = 0;       ///< J
-  double frequency_squared = 0;  ///< 1/s2, largest of the block
-  double smallest_area = 0;      ///< m2, twice the smallest area of the block, in the middle or at the end of the step
-};
 
 /// Sums of one node block.
 struct NodeSums {
@@ -41,6 +34,7 @@ struct Workspace {
   }
 
   Pool pool;
+  const BlockKernel* block_kernels = widest_block_kernels();
   std::vector<Vec2> corner_forces;  ///< N, corner 3 e + i of element e
   std::vector<ElementSums> element_sums;
   std::vector<NodeSums> node_sums;

@@ -1,0 +1,222 @@
+#include "wave_tools.hpp"
+
+namespace udar::verification {
+namespace {
+
+constexpr double density = 7850;
+const Elasticity steel = elasticity_of(200e9, 0.3);
+const double c_p = std::sqrt(steel.wave_modulus() / density);
+const double c_s = std::sqrt(steel.shear_modulus / density);
+const double c_bar = std::sqrt(200e9 / (1 - 0.09) / density);
+constexpr double pi = std::numbers::pi;
+
+void hold(Case& c, bool along_x) {
+  for (SupportCase& s : c.supports) {
+    s.move_x = along_x ? std::optional(TimeTable::constant(0)) : std::nullopt;
+    s.move_y = along_x ? std::nullopt : std::optional(TimeTable::constant(0));
+  }
+}
+
+// --- fronts
+
+enum class Wave { p, s, bar };
+
+struct Front {
+  double speed;    ///< m/s, from two stations
+  double history;  ///< relative L2 error of the velocity against time at the second station
+  double mirror;   ///< error of the symmetry about the middle line, over the largest velocity
+};
+
+/// Sends the front through and watches it pass 0.2 m and 0.6 m on the middle line.
+Front send(Wave wave, int cells_per_rise) {
+  Case c = load("waves.toml");
+  const double speed = wave == Wave::p ? c_p : (wave == Wave::s ? c_s : c_bar);
+  constexpr double rise_length = 0.16;  // m, the same for all waves
+  const double rise = rise_length / speed;
+  RectangleMesh& mesh = std::get<RectangleMesh>(c.bodies[0].mesh);
+  mesh.element_size = rise_length / cells_per_rise;
+  if (wave == Wave::bar) {
+    c.supports.clear();
+    mesh.size.y = 0.02;
+    mesh.element_size = std::min(mesh.element_size, 0.005);
+  }
+  if (wave == Wave::s) {
+    hold(c, true);
+    c.loads[0].value = {0, 1e6};
+  }
+  c.loads[0].factor.times = {0, rise};
+  c.run.end_time = 0.6 / speed + 1.2 * rise;
+  Run run(c);
+
+  const double middle = 0.5 * mesh.size.y;
+  const Index first = nearest(run.model, {0.2, middle});
+  const Index second = nearest(run.model, {0.6, middle});
+  const auto along = [&](Index node) {
+    const Vec2 v = velocity(run.state, node);
+    return wave == Wave::s ? v.y : v.x;
+  };
+  const double plateau = 1e6 / (density * speed);
+  Record at_first, at_second;
+  double error = 0;
+  double norm = 0;
+  run.run([&](const Run& now) {
+    at_first.add(now.time(), along(first));
+    at_second.add(now.time(), along(second));
+    const double exact = plateau * c.loads[0].factor.at(now.time() - run.model.rest[second].x / speed);
+    error += std::pow(at_second.values.back() - exact, 2);
+    norm += exact * exact;
+  });
+  const double distance = run.model.rest[second].x - run.model.rest[first].x;
+  const double time = at_second.passes(0.5 * plateau) - at_first.passes(0.5 * plateau);
+  return {distance / time, std::sqrt(error / norm), wave == Wave::s ? 0 : mirror_error(run, false, middle, 1)};
+}
+
+// Numerical dispersion: linear elements, lumped masses and central difference carry a wave number k at
+// c (1 - (k h)^2 / 24) at most (one dimension, steps far below the limit; larger steps are better), and up to twice that
+// on meshes with two kinds of nodes. A front that rises smoothly over 0.16 m holds wave numbers up to about 2 pi / 0.16 m,
+// and half-way up the group speed, 3 times as far off, counts: (2 pi / n)^2 / 4 with n cells in the rise.
+double front_bound(int cells_per_rise) { return std::pow(2 * pi / cells_per_rise, 2) / 4; }
+
+void check_front(Wave wave, const char* name, double speed) {
+  const std::vector<int> cells{8, 16, 32};
+  std::vector<double> errors;
+  for (const int n : cells) {
+    const Front front = send(wave, n);
+    CHECK(within(fmt::format("{} front speed (m/s), {} cells in the rise", name, n), front.speed, speed, front_bound(n)));
+    errors.push_back(front.history);
+    // The order of sums at the nodes is not mirrored: rounding only, which 1e3 steps add up.
+    CHECK(below("mirror symmetry", front.mirror, 1e-11));
+  }
+  // Smooth data: order 2. The rise is C2 only, its third derivative jumps; that costs nothing in L2 for order 2.
+  CHECK(order_of(fmt::format("{} velocity history, L2 error", name), errors) >= 1.9);
+}
+
+// --- standing waves
+
+struct Errors {
+  double displacement;
+  double stress;
+};
+
+/// P or S standing wave after 9/8 of a period, so that an error of phase shows as well as one of amplitude.
+Errors stand(bool shear, double element_size, const char* diagonals) {
+  Case c = load("standing.toml", {fmt::format("bodies.block.mesh.diagonals=\"{}\"", diagonals)});
+  std::get<RectangleMesh>(c.bodies[0].mesh).element_size = element_size;
+  CosineMode& mode = *c.bodies[0].cosine_mode;
+  if (shear) {
+    hold(c, true);
+    std::swap(mode.amplitude.x, mode.amplitude.y);
+  }
+  const double speed = shear ? c_s : c_p;
+  const double k = mode.wave_vector.x;
+  const double omega = speed * k;
+  c.run.end_time = 9.0 / 8 * 2 * pi / omega;
+  Run run(c);
+  run.run();
+  const Vec2 amplitude = (std::sin(omega * run.time()) / omega) * mode.amplitude;
+  const Norms u = displacement_error(run, [&](Vec2 p) { return std::cos(k * p.x) * amplitude; });
+  const Norms s = stress_error(run, [&](Vec2 p) {
+    const Vec2 slope = (-k * std::sin(k * p.x)) * amplitude;
+    return SymTensor<double>{steel.wave_modulus() * slope.x, steel.lambda * slope.x, steel.shear_modulus * slope.y,
+                             steel.lambda * slope.x};
+  });
+  return {u.relative(), s.relative()};
+}
+
+/// Lame's mode of a free square of side L: u = (cos kx sin ky, -sin kx cos ky), k = pi / L, frequency sqrt(2) c_S k.
+/// No traction on any side, so nothing holds the body.
+Errors ring(double side, double element_size, const char* diagonals) {
+  Case c = load("standing.toml", {fmt::format("bodies.block.mesh.diagonals=\"{}\"", diagonals)});
+  c.supports.clear();
+  RectangleMesh& mesh = std::get<RectangleMesh>(c.bodies[0].mesh);
+  mesh.size = {side, side};
+  mesh.element_size = element_size;
+  const double k = pi / side;
+  const double omega = std::sqrt(2.0) * c_s * k;
+  c.run.end_time = 9.0 / 8 * 2 * pi / omega;
+  Model model = build_model(c);
+  const auto shape = [&](Vec2 p) {
+    return Vec2{std::cos(k * p.x) * std::sin(k * p.y), -std::sin(k * p.x) * std::cos(k * p.y)};
+  };
+  constexpr double speed = 0.01;  // m/s
+  for (Index i = 0; i < model.node_count; ++i) model.start_velocity[i] = speed * shape(model.rest[i]);
+  ModelRun run(std::move(model));
+  while (!run.done()) run.step();
+  const double amplitude = speed * std::sin(omega * run.time()) / omega;
+  const Norms u = displacement_error(run, [&](Vec2 p) { return amplitude * shape(p); });
+  const Norms s = stress_error(run, [&](Vec2 p) {
+    const double stretch = -2 * steel.shear_modulus * amplitude * k * std::sin(k * p.x) * std::sin(k * p.y);
+    return SymTensor<double>{stretch, -stretch, 0, 0};
+  });
+  return {u.relative(), s.relative()};
+}
+
+/// Bounds from theory. Stress: a constant in each triangle cannot follow a stress of gradient g better than
+/// g h / sqrt(18) (standard deviation of a linear function over a right triangle of leg h); with a sine of wave number k
+/// that is k h / sqrt(18) of its norm. Twice that leaves room for what dispersion and unequal masses add. Displacement:
+/// interpolation (k h)^2 / 8 at most, and the phase w t (k h)^2 / 24, at 9/8 of a period 0.29 (k h)^2; on meshes with two
+/// kinds of nodes up to twice that.
+template <class Solve>
+void check_mode(const char* name, double wave_number, const std::vector<double>& sizes, Solve&& solve) {
+  std::vector<double> displacement, stress;
+  for (const double h : sizes) {
+    const Errors e = solve(h);
+    const double kh = wave_number * h;
+    CHECK(below(fmt::format("{}, k h = {:.3f}: displacement", name, kh), e.displacement, (1.0 / 8 + 2 * 0.29) * kh * kh));
+    CHECK(below(fmt::format("{}, k h = {:.3f}: stress", name, kh), e.stress, 2 * kh / std::sqrt(18.0)));
+    displacement.push_back(e.displacement);
+    stress.push_back(e.stress);
+  }
+  CHECK(order_of(fmt::format("{}: displacement, L2 error", name), displacement) >= 1.9);
+  CHECK(order_of(fmt::format("{}: stress, L2 error", name), stress) >= 0.9);
+}
+
+const std::vector<double> coarse{0.02, 0.01, 0.005};
+
+}  // namespace
+
+TEST_CASE("waves: the speeds") {
+  CHECK(within("c_P (m/s)", c_p, 5856.36, 1e-6));
+  CHECK(within("c_S (m/s)", c_s, 3130.35, 1e-6 + 0.005 / 3130));
+  CHECK(within("plane-strain bar (m/s)", c_bar, 5291.26, 1e-6 + 0.005 / 5291));
+}
+
+TEST_CASE("waves: P front") { check_front(Wave::p, "P", c_p); }
+TEST_CASE("waves: S front") { check_front(Wave::s, "S", c_s); }
+
+TEST_CASE("waves: front in a slender bar") {
+  // Rayleigh and Love: the bar's sides breathe, which slows wave number k by nu'^2 (k H)^2 / 24, nu' = nu/(1 - nu);
+  // with H = 20 mm and k up to 2 pi / 0.16 m that is 0.5 % of 1 %.
+  for (const int n : {32, 64}) {
+    const Front front = send(Wave::bar, n);
+    CHECK(within(fmt::format("bar front speed (m/s), {} cells in the rise", n), front.speed, c_bar,
+                 front_bound(n) + std::pow(0.3 / 0.7 * 2 * pi / 0.16 * 0.02, 2) / 8));
+    CHECK(below("mirror symmetry", front.mirror, 1e-11));
+  }
+}
+
+TEST_CASE("waves: standing P wave") {
+  for (const char* d : {"right", "alternating", "crossed"}) {
+    check_mode(fmt::format("P, {}", d).c_str(), 2 * pi / 0.4, coarse, [&](double h) { return stand(false, h, d); });
+  }
+}
+TEST_CASE("waves: standing S wave") {
+  for (const char* d : {"right", "alternating", "crossed"}) {
+    check_mode(fmt::format("S, {}", d).c_str(), 2 * pi / 0.4, coarse, [&](double h) { return stand(true, h, d); });
+  }
+}
+TEST_CASE("waves: Lame's mode of a free square") {
+  for (const char* d : {"right", "alternating", "crossed"}) {
+    check_mode(fmt::format("Lame, {}", d).c_str(), std::sqrt(2.0) * pi / 0.2, coarse,
+               [&](double h) { return ring(0.2, h, d); });
+  }
+}
+
+TEST_CASE("waves: finer meshes (long)") {
+  const std::vector<double> fine{0.0025, 0.00125};
+  check_mode("P, alternating", 2 * pi / 0.4, fine, [](double h) { return stand(false, h, "alternating"); });
+  check_mode("S, alternating", 2 * pi / 0.4, fine, [](double h) { return stand(true, h, "alternating"); });
+  check_mode("Lame, alternating", std::sqrt(2.0) * pi / 0.2, fine, [](double h) { return ring(0.2, h, "alternating"); });
+}
+
+}  // namespace udar::verification
