@@ -45,6 +45,12 @@ inline std::string beam_with(std::string_view from, std::string_view to) {
   return at == std::string::npos ? std::string() : text.replace(at, from.size(), to);
 }
 
+inline std::string repeated(std::string_view piece, int times) {
+  std::string out;
+  for (int i = 0; i < times; ++i) out += piece;
+  return out;
+}
+
 /// What is said of a case; "" where nothing is wrong.
 inline std::string complaints(std::string_view text, std::vector<std::string> assignments = {}) {
   try {

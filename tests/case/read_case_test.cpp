@@ -156,26 +156,6 @@ TEST_CASE("things keep the order of the file") {
   CHECK(c.obstacles[3].name == "mid");
 }
 
-TEST_CASE("assignments replace values of the file") {
-  const std::vector<std::string> assignments{"bodies.beam.mesh.element_size=0.5 cm",
-                                             "run.end_time=\"1 ms\"",
-                                             "obstacles.stop.friction=0.1",
-                                             "observe.nodes.0.at=[\"1 cm\", \"2 cm\"]",
-                                             "output.fields_at=[\"1 us\"]",
-                                             "contact.damping=0.2",
-                                             "run.integrator=adams",
-                                             "run.gravity.1=-1 m/s^2"};
-  const Case c = read_case(short_beam, "short-beam.toml", assignments);
-  CHECK(std::get<RectangleMesh>(c.bodies[0].mesh).element_size == 0.005);
-  CHECK(c.run.end_time == 0.001);
-  CHECK(c.obstacles[0].friction == 0.1);
-  CHECK(c.observed_nodes[0].at == Vec2{0.01, 0.02});
-  CHECK(c.output.fields_at == std::vector<double>{1e-6});
-  CHECK(c.contact.damping == 0.2);
-  CHECK(c.run.integrator == Integrator::adams);
-  CHECK(c.run.gravity == Vec2{0, -1});
-}
-
 TEST_CASE("a byte order mark, CR LF and comments in any language are taken") {
   std::string text = "\xef\xbb\xbf# \u0431\u0430\u043b\u043a\u0430 \U0001f600\r\n";
   for (const char c : short_beam) text += c == '\n' ? std::string("\r\n") : std::string(1, c);

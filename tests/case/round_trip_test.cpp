@@ -113,9 +113,7 @@ class RandomCase {
   std::mt19937_64 random_;
 };
 
-std::uint64_t bits(double value) {
-  return std::bit_cast<std::uint64_t>(value);
-}
+std::uint64_t bits(double value) { return std::bit_cast<std::uint64_t>(value); }
 
 TEST_CASE("any case reads back from its own text, bit for bit") {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {

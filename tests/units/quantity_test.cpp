@@ -23,9 +23,7 @@ std::string complaint(std::string_view text, Dimension needed) {
   return value.error().what + "; " + value.error().reason + "; " + value.error().cure;
 }
 
-bool has(const std::string& text, std::string_view part) {
-  return text.find(part) != std::string::npos;
-}
+bool has(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
 
 TEST_CASE("quantities come out as the nearest double of their SI value") {
   CHECK(si("80 m/s", dimension::velocity) == 80);

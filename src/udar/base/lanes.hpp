@@ -23,7 +23,7 @@ namespace udar {
 [[gnu::always_inline]] inline double larger(double a, double b) { return a > b ? a : b; }
 [[gnu::always_inline]] inline double smaller(double a, double b) { return a < b ? a : b; }
 
-inline namespace UDAR_ISA {
+namespace UDAR_ISA {
 
 /// As many doubles as one vector register holds. GCC's and clang's vector extension: not left to the compiler's own
 /// vectoriser, which gives up on loops as long as ours without saying so.

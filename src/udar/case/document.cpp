@@ -41,9 +41,8 @@ class Importer {
     } else if (const auto* text = node.as_string()) {
       out.kind = Value::Kind::text;
       out.text = text->get();
-    } else if (const auto* boolean = node.as_boolean()) {
+    } else if (node.is_boolean()) {
       out.kind = Value::Kind::boolean;
-      out.boolean = boolean->get();
     } else if (const auto number = node.value<double>(); number && node.is_number()) {
       out.kind = Value::Kind::number;
       out.number = *number;
@@ -143,7 +142,7 @@ std::string kind_name(Value::Kind kind) {
   }
 }
 
-Place Document::place_of(std::string_view path, bool of_key) const {
+Place Document::place_of(std::string_view path) const {
   const Value* value = &root;
   Place place;
   for (const std::string_view part : parts_of(path)) {
@@ -157,7 +156,7 @@ Place Document::place_of(std::string_view path, bool of_key) const {
       const Entry* entry = value->find(part);
       if (entry == nullptr) return place;
       value = &entry->value;
-      place = of_key || value->place.line == 0 ? entry->place : value->place;
+      place = value->place.line == 0 ? entry->place : value->place;
     }
   }
   return place;

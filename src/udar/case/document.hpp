@@ -25,7 +25,6 @@ struct Entry;
 struct Value {
   enum class Kind { boolean, number, text, list, table, date };
   Kind kind = Kind::table;
-  bool boolean = false;
   double number = 0;
   std::string text;
   std::vector<Value> items;    ///< of a list
@@ -53,9 +52,8 @@ struct Document {
   std::vector<Source> sources;
   Value root;
 
-  /// The place of the value at `path` ("observe.nodes.0.at"), or of its key; where it does not exist, of the innermost
-  /// table around it.
-  [[nodiscard]] Place place_of(std::string_view path, bool of_key = false) const;
+  /// The place of the value at `path` ("observe.nodes.0.at"); where there is none, of the innermost table around it.
+  [[nodiscard]] Place place_of(std::string_view path) const;
 };
 
 /// A diagnostic at a place of one of the sources, with its line of text.

@@ -186,7 +186,7 @@ const Schema<SupportCase>& support_schema() {
 }
 
 /// A key that belongs to one kind of load and says that the load is of that kind.
-Key<LoadCase> only_for(LoadCase::Kind kind, Key<LoadCase> key) {
+Key<LoadCase> only_for(LoadCase::Kind kind, const Key<LoadCase>& key) {
   Key<LoadCase> out = key;
   out.read = [kind, key](const Value& value, const std::string& path, LoadCase& load, Mistakes& mistakes) {
     load.kind = kind;
@@ -203,10 +203,10 @@ Key<LoadCase> only_for(LoadCase::Kind kind, Key<LoadCase> key) {
 }
 
 /// `nodes` and `edges` fill the same member; which of them a case file has is settled by the kind of load.
-Key<LoadCase> selected(std::string name, bool nodes, std::string doc) {
+Key<LoadCase> selected(const std::string& name, bool nodes, const std::string& doc) {
   using L = LoadCase;
-  Key<L> out = key(std::move(name), &L::where, InlineTableKind<Selection>{selection_schema}, std::move(doc),
-                   Need::optional, nodes ? "{ point = [\"4 cm\", \"3 cm\"] }" : "{ side = \"top\" }");
+  Key<L> out = key(name, &L::where, InlineTableKind<Selection>{selection_schema}, doc, Need::optional,
+                   nodes ? "{ point = [\"4 cm\", \"3 cm\"] }" : "{ side = \"top\" }");
   const auto mine = [nodes](const L& load) { return nodes == (load.kind == L::Kind::force); };
   out.check = [mine, check = out.check](const L& load, const std::string& path, Mistakes& mistakes) {
     if (mine(load)) check(load, path, mistakes);
@@ -246,8 +246,8 @@ const Schema<LoadCase>& load_schema() {
 }
 
 template <class Observer>
-Schema<Observer> observer_schema(std::string doc, Key<Observer> where) {
-  return {.doc = std::move(doc),
+Schema<Observer> observer_schema(const std::string& doc, Key<Observer> where) {
+  return {.doc = doc,
           .keys = {key("name", &Observer::name, own_name, "what the results call it; each name once", required),
                    key("body", &Observer::body, body_name, "where it is", required), std::move(where),
                    key("window", &Observer::window, WindowKind{}, "when extremes are taken")}};

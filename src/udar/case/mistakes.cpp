@@ -83,7 +83,9 @@ std::vector<Diagnostic> Mistakes::diagnostics(const Document* document) const {
     }
   }
   for (std::size_t i = 0; i < out.size(); ++i) {
-    if (!others[i].empty()) out[i].cure += (out[i].cure.empty() ? "" : "; ") + other_lines(others[i]);
+    if (others[i].empty()) continue;
+    const std::string rest = other_lines(others[i]);
+    out[i].cure = out[i].cure.empty() ? rest : fmt::format("{} ({})", out[i].cure, rest);
   }
   if (hidden > 0)
     out.push_back({.file = document->sources[0].name, .message = fmt::format("and {} more mistakes", hidden)});

@@ -27,11 +27,11 @@ inline std::string join(std::string_view path, std::string_view part) {
 
 /// The last part that is not the number of an item: what the user calls the key.
 inline std::string key_of(std::string_view path) {
-  const auto parts = parts_of(path);
-  for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
-    if (part->find_first_not_of("0123456789") != std::string_view::npos) return std::string(*part);
+  std::string_view key = path;
+  for (const std::string_view part : parts_of(path)) {
+    if (part.find_first_not_of("0123456789") != std::string_view::npos) key = part;
   }
-  return std::string(path);
+  return std::string(key);
 }
 
 }  // namespace udar

@@ -15,9 +15,7 @@
 namespace udar {
 namespace {
 
-std::string length_text(double metres) {
-  return si_text(metres, dimension::length);
-}
+std::string length_text(double metres) { return si_text(metres, dimension::length); }
 
 // --- names
 
@@ -47,7 +45,10 @@ class Known {
  private:
   static std::string few(std::vector<std::string> names) {
     constexpr std::size_t most = 8;
-    if (names.size() > most) names.resize(most), names.push_back("others");
+    if (names.size() > most) {
+      names.resize(most);
+      names.emplace_back("others");
+    }
     return one_of(names);
   }
 
@@ -209,9 +210,7 @@ void check_supports(const Case& c, const Known& bodies, Mistakes& mistakes) {
   }
 }
 
-std::string selection_key(const LoadCase& load) {
-  return load.kind == LoadCase::Kind::force ? "nodes" : "edges";
-}
+std::string selection_key(const LoadCase& load) { return load.kind == LoadCase::Kind::force ? "nodes" : "edges"; }
 
 void check_loads(const Case& c, const Known& bodies, Mistakes& mistakes) {
   for (const LoadCase& load : c.loads) {

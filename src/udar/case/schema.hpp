@@ -101,13 +101,14 @@ inline constexpr bool is_section_kind = requires {
 
 /// A key called `name` for what `get` (a member pointer or a function) finds in the Owner.
 template <class Kind, class Get, class Owner>
-Key<Owner> make_key(std::string name, Get get, Kind kind, std::string doc, Need need, std::string example) {
+Key<Owner> make_key(const std::string& name, Get get, Kind kind, const std::string& doc, Need need,
+                    const std::string& example) {
   Key<Owner> out;
-  out.text = {.name = std::move(name),
+  out.text = {.name = name,
               .value = kind.describe(),
               .standard = "",
-              .doc = std::move(doc),
-              .example = example.empty() ? kind.example() : std::move(example),
+              .doc = doc,
+              .example = example.empty() ? kind.example() : example,
               .required = need == Need::required};
   out.read = [get, kind](const Value& value, const std::string& path, Owner& owner, Mistakes& mistakes) {
     kind.read(value, path, std::invoke(get, owner), mistakes);
@@ -134,16 +135,16 @@ Key<Owner> make_key(std::string name, Get get, Kind kind, std::string doc, Need 
 }
 
 template <class Owner, class Member, class Kind>
-Key<Owner> key(std::string name, Member Owner::*member, Kind kind, std::string doc, Need need = {},
-               std::string example = "") {
-  return make_key<Kind, Member Owner::*, Owner>(std::move(name), member, std::move(kind), std::move(doc), need,
-                                                std::move(example));
+Key<Owner> key(const std::string& name, Member Owner::*member, Kind kind, const std::string& doc, Need need = {},
+               const std::string& example = "") {
+  return make_key<Kind, Member Owner::*, Owner>(name, member, std::move(kind), doc, need, example);
 }
 
 /// The same for a part that no member pointer reaches; `get` takes `auto&` and returns `auto&`.
 template <class Owner, class Get, class Kind>
-Key<Owner> key_at(std::string name, Get get, Kind kind, std::string doc, Need need = {}, std::string example = "") {
-  return make_key<Kind, Get, Owner>(std::move(name), get, std::move(kind), std::move(doc), need, std::move(example));
+Key<Owner> key_at(const std::string& name, Get get, Kind kind, const std::string& doc, Need need = {},
+                  const std::string& example = "") {
+  return make_key<Kind, Get, Owner>(name, get, std::move(kind), doc, need, example);
 }
 
 /// A key of a part of the Owner as a key of the Owner.
@@ -200,9 +201,7 @@ Alternatives<Owner> alternatives_of(std::string name, std::string doc, Get get, 
   const auto add = [&]<class Type>(const Type*) {
     Alternative<Owner> one{
         Type::keyword, Type::doc, {}, [get](Owner& o) { std::invoke(get, o).template emplace<Type>(); }};
-    const auto part = [get](auto& o) -> auto& {
-      return std::get<Type>(std::invoke(get, o));
-    };
+    const auto part = [get](auto& o) -> auto& { return std::get<Type>(std::invoke(get, o)); };
     for (const Parameter<Type>& p : Type::parameters()) one.keys.push_back(lift<Owner>(key_of_parameter(p), part));
     out.all.push_back(std::move(one));
   };

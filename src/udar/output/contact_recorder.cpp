@@ -20,10 +20,13 @@ ContactRecorder::ContactRecorder(const Model& model)
   for (const Index node : model.contact_nodes) {
     body_of_contact_node_.push_back(static_cast<Index>(&model.body_of_node(node) - model.bodies.data()));
   }
+  for (const Body& body : model.bodies) {
+    Vec2& start = last_momentum_.emplace_back();
+    for (Index i = body.node_begin; i < body.node_end; ++i) start += model.mass[i] * model.start_velocity[i];
+  }
 }
 
 void ContactRecorder::record(const State& state) {
-  if (last_momentum_.empty()) last_momentum_ = state.body_momentum;
   for (std::size_t o = 0; o < model_.obstacles.size(); ++o) {
     auto& touches = touches_[o];
     const bool lasts = !touches.empty() && !touches.back().over;

@@ -49,7 +49,7 @@ class ContactRecorder {
   std::vector<Index> body_of_contact_node_;
   std::vector<std::vector<Touch>> touches_;  ///< by obstacle
   std::vector<Curve> curves_;
-  std::vector<Vec2> last_momentum_;
+  std::vector<Vec2> last_momentum_;  ///< kg m/s, body by body, before the step
 };
 
 }  // namespace udar

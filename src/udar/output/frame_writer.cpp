@@ -94,6 +94,12 @@ void add_cell_fields(const Model& model, const State& state, VtuGrid& grid) {
       "body", for_elements<std::int32_t>(model, [](std::size_t b, Index) { return static_cast<std::int32_t>(b); })));
 }
 
+/// The edge of something endless with a part of it, so that it can be seen which side is full.
+std::vector<Vec2> strip(const PreparedShape& shape, const Polyline& edge, double depth) {
+  const Vec2 inward = -depth * gap(shape, 0.5 * (edge[0] + edge[1])).normal;
+  return {edge[0], edge[1], edge[1] + inward, edge[0] + inward};
+}
+
 }  // namespace
 
 VtuGrid body_grid(const Model& model, const State& state) {
@@ -117,7 +123,7 @@ std::vector<std::vector<Vec2>> obstacle_outlines(const Model& model, const State
     const Vec2 moved = state.clock.time.value() * obstacle.velocity;
     const Box view{bodies.low - moved, bodies.high - moved};
     for (const Polyline& line : outline(obstacle.prepared, view.grown(margin))) {
-      all.push_back(line);
+      all.push_back(line.size() == 2 ? strip(obstacle.prepared, line, 0.4 * margin) : line);
       for (Vec2& p : all.back()) p += moved;
     }
   }
@@ -134,18 +140,13 @@ VtuGrid obstacle_grid(const Model& model, const State& state) {
 }
 
 FrameWriter::FrameWriter(const Model& model, const RunFolder& folder)
-    : model_(model), folder_(folder), index_(folder / RunFolder::fields_index) {}
+    : model_(model), folder_(folder), index_(folder / RunFolder::fields_index), intervals_(model.output.fields_every) {}
 
 void FrameWriter::record(const State& state) {
   const double time = state.clock.time.value();
-  bool due = false;
-  if (const double every = model_.output.fields_every; every > 0) {
-    // A hair early counts: k times the interval and the sum of steps round differently.
-    const auto reached = static_cast<std::uint64_t>((time + 1e-9 * every) / every) + 1;
-    due = reached > intervals_;
-    intervals_ = std::max(reached, intervals_);
-  }
-  while (times_ < model_.output.fields_at.size() && model_.output.fields_at[times_] <= time) {
+  bool due = intervals_.reached(time);
+  // Here too a hair early counts.
+  while (times_ < model_.output.fields_at.size() && model_.output.fields_at[times_] <= time * (1 + 1e-12)) {
     due = true;
     ++times_;
   }

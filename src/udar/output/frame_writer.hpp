@@ -5,6 +5,7 @@
 
 #include "udar/model/model.hpp"
 #include "udar/model/state.hpp"
+#include "udar/output/multiples.hpp"
 #include "udar/results/pvd.hpp"
 #include "udar/results/run_folder.hpp"
 #include "udar/results/vtu.hpp"
@@ -13,7 +14,7 @@ namespace udar {
 
 /// Bodies with all fields at t_n.
 VtuGrid body_grid(const Model& model, const State& state);
-/// Outlines of the obstacles where they stand at t_n; endless ones are cut a little around the bodies.
+/// The obstacles where they stand at t_n, as closed polygons; of endless ones a strip beside the bodies.
 VtuGrid obstacle_grid(const Model& model, const State& state);
 /// The same outlines, obstacle by obstacle, m.
 std::vector<std::vector<Vec2>> obstacle_outlines(const Model& model, const State& state);
@@ -35,8 +36,8 @@ class FrameWriter {
   const Model& model_;
   RunFolder folder_;
   PvdIndex index_;
-  std::uint64_t intervals_ = 0;  ///< multiples of the interval that are done
-  std::size_t times_ = 0;        ///< times asked for that are done
+  Multiples intervals_;
+  std::size_t times_ = 0;  ///< times asked for that are done
   int frames_ = 0;
   std::uint64_t last_step_ = 0;
 };

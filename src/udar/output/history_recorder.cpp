@@ -1,6 +1,7 @@
 #include "udar/output/history_recorder.hpp"
 
 #include <cmath>
+#include <exception>
 
 namespace udar {
 namespace {
@@ -21,7 +22,7 @@ void take(HistorySummary& extremes, double value, double time) {
 }  // namespace
 
 HistoryRecorder::HistoryRecorder(const Model& model, const std::optional<std::filesystem::path>& folder)
-    : interval_(model.output.histories_every) {
+    : samples_(model.output.histories_every) {
   for (Observer& observer : make_observers(model)) {
     Watched w{std::move(observer), {}, {}, {}};
     w.values.resize(w.observer.columns.size());
@@ -38,33 +39,38 @@ HistoryRecorder::HistoryRecorder(const Model& model, const std::optional<std::fi
 void HistoryRecorder::record(const State& state) {
   const double time = state.clock.time.value();
   for (Watched& w : watched_) {
-    w.observer.measure(state, w.values);
     if (time < w.observer.window.begin || time > w.observer.window.end) continue;
+    w.observer.measure(state, w.values);
     for (std::size_t q = 0; q < w.values.size(); ++q) take(w.extremes[q], w.values[q], time);
   }
-  if (time < static_cast<double>(samples_) * interval_) return;
-  samples_ = static_cast<std::uint64_t>(time / interval_) + 1;
-  last_written_step_ = state.clock.step;
-  write_rows(time);
+  if (samples_.reached(time)) write_rows(state);
 }
 
-void HistoryRecorder::write_rows(double time) {
+void HistoryRecorder::write_rows(const State& state) {
+  last_written_step_ = state.clock.step;
   for (Watched& w : watched_) {
     if (!w.file) continue;
-    row_.assign(1, time);
+    w.observer.measure(state, w.values);
+    row_.assign(1, state.clock.time.value());
     row_.insert(row_.end(), w.values.begin(), w.values.end());
     w.file->write_row(row_);
   }
 }
 
 void HistoryRecorder::close(const State& state) {
-  if (state.clock.step > 0 && last_written_step_ != state.clock.step) {
-    last_written_step_ = state.clock.step;
-    write_rows(state.clock.time.value());
-  }
+  std::exception_ptr refused;
+  const auto attempt = [&](auto&& write) {
+    try {
+      write();
+    } catch (...) {
+      if (!refused) refused = std::current_exception();
+    }
+  };
+  if (last_written_step_ != state.clock.step) attempt([&] { write_rows(state); });
   for (Watched& w : watched_) {
-    if (w.file) w.file->close();
+    if (w.file) attempt([&] { w.file->close(); });
   }
+  if (refused) std::rethrow_exception(refused);
 }
 
 std::map<std::string, std::map<std::string, HistorySummary>> HistoryRecorder::summary() const {

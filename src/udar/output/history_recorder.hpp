@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "udar/output/multiples.hpp"
 #include "udar/output/observer.hpp"
 #include "udar/results/summary.hpp"
 
@@ -19,7 +20,7 @@ class HistoryRecorder {
 
   /// To be called at t_0 and after every step.
   void record(const State& state);
-  /// Writes the last row, if it is not yet there, and closes the files. Throws OutputError.
+  /// Writes the last row, if it is not yet there, and closes all files, also where one fails. Throws OutputError.
   void close(const State& state);
 
   [[nodiscard]] std::map<std::string, std::map<std::string, HistorySummary>> summary() const;
@@ -31,11 +32,10 @@ class HistoryRecorder {
     std::vector<HistorySummary> extremes;
     std::optional<HistoryWriter> file;
   };
-  void write_rows(double time);
+  void write_rows(const State& state);
 
-  double interval_;
-  std::uint64_t samples_ = 0;  ///< rows so far: sample k is due at k times the interval
-  std::uint64_t last_written_step_ = 0;
+  Multiples samples_;
+  std::optional<std::uint64_t> last_written_step_;
   std::vector<Watched> watched_;
   std::vector<double> row_;
 };

@@ -108,6 +108,7 @@ void for_each_member(T& s, Visit visit) {
   visit("element_steps_per_second", s.element_steps_per_second);
   visit("end_time", s.end_time);
   visit("energy_error", s.energy_error);
+  visit("identity_error", s.identity_error);
   visit("momentum_error", s.momentum_error);
   visit("penetration_ratio", s.penetration_ratio);
   visit("verdict", s.verdict);

@@ -101,6 +101,7 @@ struct Summary {
   double element_steps_per_second = 0;
   double end_time = 0;                   ///< s, reached
   double energy_error = no_number;       ///< part of the energy, largest over time
+  double identity_error = no_number;     ///< the same of the nodes' work and kinetic energy: rounding only
   double momentum_error = no_number;     ///< part of the momentum, largest over time
   double penetration_ratio = no_number;  ///< deepest penetration over element size
   std::string verdict;                   ///< good, doubtful or bad

@@ -67,7 +67,7 @@ StepLimit stable_limit(const Model& model, const State& state, const Workspace& 
 double fixed_step(const Model& model, Clock& clock) {
   const double step = *model.run.time_step;
   if (step <= clock.limit.size || rule_of(model.run.integrator).stable_limit == 0) return step;
-  if (model.run.when_unstable == WhenUnstable::stop) fail_unstable(model, clock);
+  if (model.run.when_unstable == WhenUnstable::stop && clock.step > 0) fail_unstable(model, clock);
   if (clock.shortened++ == 0) {
     clock.first_shortened = clock.time.value();
     clock.first_shortened_element = clock.limit.element;

@@ -18,12 +18,8 @@ namespace {
 template <class T>
 using Expected = tl::expected<T, UnitError>;
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
-}
-bool is_letter(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '%';
-}
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '%'; }
 
 /// What a keyboard or a word processor may put in place of the plain signs.
 std::string plain_signs(std::string_view text) {
@@ -100,7 +96,7 @@ class UnitReader {
       if (!divide && divided) return ambiguous();
       if (divide || multiply) ++at_;
       divided = divided || divide;
-      const Expected<Unit> next = factor();
+      Expected<Unit> next = factor();
       if (!next) return next;
       multiply_by(all, *next, divide ? -1 : 1);
     }
@@ -283,9 +279,7 @@ Expected<Quantity> evaluate(const Split& parts) {
 
 }  // namespace
 
-tl::expected<Quantity, UnitError> parse_quantity(std::string_view text) {
-  return split(text).and_then(evaluate);
-}
+tl::expected<Quantity, UnitError> parse_quantity(std::string_view text) { return split(text).and_then(evaluate); }
 
 tl::expected<double, UnitError> parse_si(std::string_view text, Dimension needed) {
   const Expected<Split> parts = split(text);

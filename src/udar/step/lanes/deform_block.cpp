@@ -7,7 +7,7 @@
 #include "udar/step/element_kernels.hpp"
 
 namespace udar {
-inline namespace UDAR_ISA {
+namespace UDAR_ISA {
 namespace {
 
 /// One number for each element of a block.

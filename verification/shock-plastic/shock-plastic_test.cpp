@@ -1,0 +1,169 @@
+#include "wave_tools.hpp"
+
+namespace udar::verification {
+namespace {
+
+constexpr double density = 7850;
+constexpr double poisson = 0.3;
+constexpr double yield = 400e6;
+constexpr double impact = 100;
+constexpr double bar_length = 0.12;
+constexpr double height = 0.002;
+const Elasticity steel = elasticity_of(200e9, poisson);
+
+/// Two fronts into bar at rest stress, in material coordinates. Lateral strains are 0, so the Cauchy stress is the force
+/// on the undeformed section. The law in rate form makes it a function of the logarithmic strain e = ln(1 - shortening):
+/// (lambda + 2 G) e up to the elastic limit, slope K behind. Both branches stiffen with compression, so both fronts are
+/// shocks (Rankine and Hugoniot): speed^2 = [stress] / (density [shortening]), velocity jump = [stress]/(density speed).
+struct Exact {
+  double elastic_limit;    ///< Pa, 2 k (1 - nu)/(1 - 2 nu)
+  double precursor_speed;  ///< m/s
+  double plastic_speed;    ///< m/s
+  double precursor_jump;   ///< m/s
+  double pressure;         ///< Pa, -s_x behind both
+
+  Exact() {
+    elastic_limit = yield * (1 - poisson) / (1 - 2 * poisson);
+    const double e_limit = elastic_limit / steel.wave_modulus();
+    const double shortening = 1 - std::exp(-e_limit);
+    precursor_speed = std::sqrt(elastic_limit / (density * shortening));
+    precursor_jump = elastic_limit / (density * precursor_speed);
+    const auto jump = [&](double e) {
+      const double stress = steel.bulk_modulus() * (e - e_limit);
+      const double more = std::exp(-e_limit) - std::exp(-e);
+      return precursor_jump + std::sqrt(stress * more / density) - impact;
+    };
+    const double e = root_between(jump, e_limit * (1 + 1e-9), 0.2);
+    const double stress = steel.bulk_modulus() * (e - e_limit);
+    plastic_speed = std::sqrt(stress / (density * (std::exp(-e_limit) - std::exp(-e))));
+    pressure = elastic_limit + stress;
+  }
+};
+
+struct Shock {
+  double precursor_speed;
+  double plastic_speed;
+  double precursor;  ///< Pa, mean of s_x between the fronts
+  double plateau;    ///< Pa, mean of s_x behind both
+  double lateral_y;  ///< Pa, mean of s_y - s_x there
+  double lateral_z;
+  double overshoot;  ///< largest -s_x over the exact plateau
+  double wall_force; ///< N, mean
+  double yield_excess;  ///< largest difference of principal stresses over the yield stress, less 1
+  double momentum;
+  double energy;
+  double mirror;
+};
+
+Shock strike(double element_size) {
+  const Exact exact;
+  Run run(load("shock-plastic.toml", {fmt::format("bodies.bar.mesh.element_size={} mm", 1e3 * element_size)}));
+  const Body& body = run.model.bodies[0];
+  // Mean of s_x over the column of elements at two stations, in undeformed coordinates.
+  constexpr std::array<double, 2> stations{0.02, 0.07};
+  std::array<std::vector<Index>, 2> columns;
+  for (Index e = body.element_begin; e < body.element_end; ++e) {
+    const double x = rest_centroid(run.model, e).x;
+    for (std::size_t s = 0; s < 2; ++s) {
+      if (std::fabs(x - stations[s]) < element_size) columns[s].push_back(e);
+    }
+  }
+  std::array<Record, 2> pressure;
+  Record wall;
+  Shock out{};
+  run.run([&](const Run& now) {
+    for (std::size_t s = 0; s < 2; ++s) {
+      double sum = 0;
+      for (const Index e : columns[s]) sum -= now.state.stress_xx[e];
+      pressure[s].add(now.time(), sum / static_cast<double>(columns[s].size()));
+    }
+    wall.add(now.time(), now.state.obstacles[0].total.force.x);
+    for (Index e = body.element_begin; e < body.element_end; ++e) {
+      const SymTensor<double> s = stress_of(now.state, e);
+      out.overshoot = std::max(out.overshoot, -s.xx / exact.pressure - 1);
+      const double centre = 0.5 * (s.xx + s.yy);
+      const double radius = std::hypot(0.5 * (s.xx - s.yy), s.xy);
+      const double largest = std::max(centre + radius, s.zz);
+      const double smallest = std::min(centre - radius, s.zz);
+      out.yield_excess = std::max(out.yield_excess, (largest - smallest) / yield - 1);
+    }
+  });
+
+  const double way = stations[1] - stations[0];
+  const auto speed = [&](double level) { return way / (pressure[1].passes(level) - pressure[0].passes(level)); };
+  out.precursor_speed = speed(0.5 * exact.elastic_limit);
+  out.plastic_speed = speed(0.5 * (exact.elastic_limit + exact.pressure));
+  const double end = run.time();
+  out.wall_force = wall.mean(0.3 * end, 0.9 * end);
+  // At the far station between the fronts: the middle third of the time between them.
+  const double first = stations[1] / exact.precursor_speed;
+  const double second = stations[1] / exact.plastic_speed;
+  out.precursor = -pressure[1].mean(first + (second - first) / 3, second - (second - first) / 3);
+  // The plateau now: between the wall's neighbourhood and the plastic front, in undeformed coordinates.
+  double area = 0;
+  for (Index e = body.element_begin; e < body.element_end; ++e) {
+    const double x = rest_centroid(run.model, e).x;
+    if (x < 0.2 * exact.plastic_speed * end || x > 0.8 * exact.plastic_speed * end) continue;
+    const SymTensor<double> s = stress_of(run.state, e);
+    const double a = run.model.area_density[e];
+    area += a;
+    out.plateau += a * s.xx;
+    out.lateral_y += a * (s.yy - s.xx);
+    out.lateral_z += a * (s.zz - s.xx);
+  }
+  for (double* mean : {&out.plateau, &out.lateral_y, &out.lateral_z}) *mean /= area;
+  out.momentum = momentum_error(run);
+  out.energy = run.state.ledger.energy_error();
+  out.mirror = mirror_error(run, false, 0.5 * height, 1);
+  return out;
+}
+
+/// Airy's length of a front that has run `way` (bar-on-wall): it smears by it and its half level is within it.
+double airy_length(double element_size, double way) { return std::cbrt((1 - 0.36) * element_size * element_size * way / 8); }
+
+void check(double element_size) {
+  const Exact exact;
+  const Shock s = strike(element_size);
+  const std::string at = fmt::format(", h = {} mm", 1e3 * element_size);
+  // The half level lags by a fixed part (below one) of Airy's length: it grows from station to station by the difference.
+  const double lag = (airy_length(element_size, 0.07) - airy_length(element_size, 0.02)) / 0.05;
+  CHECK(within("precursor speed (m/s)" + at, s.precursor_speed, exact.precursor_speed, lag));
+  CHECK(within("plastic front (m/s)" + at, s.plastic_speed, exact.plastic_speed, lag));
+  CHECK(within("plateau s_x (Pa)" + at, s.plateau, -exact.pressure, 0.01));
+  CHECK(within("plateau s_y - s_x (Pa)" + at, s.lateral_y, yield, 0.1));
+  CHECK(within("plateau s_z - s_x (Pa)" + at, s.lateral_z, yield, 0.1));
+  CHECK(within("wall force (N)" + at, s.wall_force, exact.pressure * height, 0.01));
+  MESSAGE(fmt::format("s_x between the fronts{}: {:.5g} Pa, exact {:.5g}; overshoot of a single element {:.3g} %", at,
+                      s.precursor, -exact.elastic_limit, 100 * s.overshoot));
+  // The return to the yield surface is exact, up to rounding of stresses 10 times as large.
+  CHECK(below("largest excess over the yield condition", s.yield_excess, 1e-13));
+  CHECK(below("momentum: change less impulses", s.momentum, 1e-12));
+  CHECK(below("energy error", s.energy, 5e-3));
+  CHECK(below("mirror symmetry", s.mirror, 1e-9));
+}
+
+}  // namespace
+
+TEST_CASE("shock-plastic: the exact answer") {
+  const Exact exact;
+  CHECK(within("elastic limit (Pa)", exact.elastic_limit, 700e6, 1e-12));
+  CHECK(within("s_x (Pa)", -exact.pressure, -3.7849e9, 0.00005 / 3.7849));
+  CHECK(within("precursor (m/s)", exact.precursor_speed, 5860.2, 0.05 / 5860));
+  CHECK(within("plastic front (m/s)", exact.plastic_speed, 4635.1, 0.05 / 4635));
+  // Small strains: c_P and sqrt(K / density).
+  CHECK(within("small strain: plastic front", std::sqrt(steel.bulk_modulus() / density), 4607.76, 0.005 / 4607));
+  const double c = std::sqrt(steel.wave_modulus() / density);
+  const double small = 700e6 + density * std::sqrt(steel.bulk_modulus() / density) * (impact - 700e6 / (density * c));
+  CHECK(within("small strain: s_x (Pa)", -small, -3.76633e9, 0.000005 / 3.76633));
+}
+
+TEST_CASE("shock-plastic: fronts and plateau") {
+  check(0.5e-3);
+  check(0.25e-3);
+}
+TEST_CASE("shock-plastic: finer meshes (long)") {
+  check(0.125e-3);
+  check(0.0625e-3);
+}
+
+}  // namespace udar::verification

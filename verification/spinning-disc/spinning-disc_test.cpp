@@ -1,0 +1,135 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "problem.hpp"
+
+namespace udar::verification {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double radius = 0.1;    // m
+constexpr double spin = 1000;     // rad/s
+constexpr double young = 200e9;   // Pa
+constexpr double nu = 0.3;
+constexpr double density = 7850;  // kg/m3
+constexpr double pressure = density * spin * spin * radius * radius;  // Pa
+
+// Turning disc in plane strain (Timoshenko and Goodier, Theory of Elasticity, 1951, art. 30, with nu / (1 - nu) for nu):
+// s_r(0) = (3 - 2 nu) / (8 (1 - nu)) rho w^2 R^2, u(R) = (1 - 2 nu)(1 + nu) / (4 (1 - nu)) rho w^2 R^3 / E.
+constexpr double exact_stress = (3 - 2 * nu) / (8 * (1 - nu)) * pressure;
+constexpr double exact_growth = (1 - 2 * nu) * (1 + nu) / (4 * (1 - nu)) * pressure * radius / young;
+constexpr double exact_spin = 0.5 * pi * density * radius * radius * radius * radius * spin;
+
+struct Disc {
+  double growth = 0;  // m, of the radius at the rim, mean over time
+  double stress = 0;  // Pa, (s_x + s_y) / 2 of the triangles at the centre, mean over time
+  double stress_apart = 0;  // Pa, largest difference of those six, ever
+  double spin = 0;          // kg m2/s
+  double spin_drift = 0;
+  double energy_error = 0;
+  double drift = 0;  // m, of the centre
+};
+
+Disc turn_disc(double element_size) {
+  Case c = load("spinning-disc.toml");
+  std::get<DiscMesh>(c.bodies[0].mesh).element_size = element_size;
+  Run run(c);
+  std::vector<Index> rim, middle;
+  Index centre = 0;
+  for (Index i = 0; i < run.model.node_count; ++i) {
+    if (length(run.model.rest[i]) > (1 - 1e-9) * radius) rim.push_back(i);
+    if (length(run.model.rest[i]) < 1e-9 * radius) centre = i;
+  }
+  for (Index e = 0; e < run.model.element_count; ++e) {
+    for (const Index node : run.model.corners[e]) {
+      if (node == centre) middle.push_back(e);
+    }
+  }
+  Disc out;
+  out.spin = run.state.ledger.spin;
+  double weights = 0;
+  run.run([&](const Run& r) {
+    const State& s = r.state;
+    // Hann's window: the ringing leaves less than 1 / (2 f T)^2 of itself, 2e-4.
+    const double w = 0.5 * (1 - std::cos(2 * pi * r.time() / c.run.end_time)) * (s.clock.last_step + s.clock.next_step);
+    double growth = 0;
+    for (const Index i : rim) growth += length(Vec2{s.nodes[i].x, s.nodes[i].y}) - radius;
+    double stress = 0, least = 1e99, most = -1e99;
+    for (const Index e : middle) {
+      const double mean = 0.5 * (s.stress_xx[e] + s.stress_yy[e]);
+      stress += mean;
+      least = std::min(least, mean);
+      most = std::max(most, mean);
+    }
+    weights += w;
+    out.growth += w * growth / static_cast<double>(rim.size());
+    out.stress += w * stress / static_cast<double>(middle.size());
+    out.stress_apart = std::max(out.stress_apart, most - least);
+    out.spin_drift = std::max(out.spin_drift, std::fabs(s.ledger.spin / out.spin - 1));
+    out.drift = std::max(out.drift, length(r.displacement(centre)));
+  });
+  out.growth /= weights;
+  out.stress /= weights;
+  out.energy_error = run.state.ledger.energy_error();
+  return out;
+}
+
+struct Level {
+  double growth_error, stress_error, spin_error;
+};
+
+Level check_disc(double element_size) {
+  const Disc d = turn_disc(element_size);
+  const double fine = element_size / radius;
+  const Level level{std::fabs(d.growth / exact_growth - 1), std::fabs(d.stress / exact_stress - 1),
+                    std::fabs(d.spin / exact_spin - 1)};
+  MESSAGE("h / R = " << fine << ": u(R) " << d.growth << " / " << exact_growth << " m (error " << level.growth_error
+                     << ", bound " << fine * fine << "), s_r(0) " << d.stress / 1e6 << " / " << exact_stress / 1e6
+                     << " MPa (error " << level.stress_error << ", bound " << fine << "), spin momentum " << d.spin << " / "
+                     << exact_spin << " (error " << level.spin_error << "), its drift " << d.spin_drift
+                     << ", energy error " << d.energy_error << "; six triangles apart by " << d.stress_apart
+                     << " Pa, centre moved " << d.drift << " m");
+  // Linear triangles: displacements of order h^2, stresses of order h. The exact fields are smooth on the scale R, so the
+  // factors are about 1. 3e-4 is left of the ringing and of large motion (u / R = 5e-5).
+  CHECK(level.growth_error <= fine * fine + 3e-4);
+  CHECK(level.stress_error <= fine);
+  // Ring k has 6 k nodes: a polygon has less area by (2 pi / 6 k)^2 / 6, twice that in its moment of inertia; mass
+  // lumped at the corners adds up to h^2 / 2 (of R^2 / 2).
+  CHECK(level.spin_error <= fine * fine);
+  // No forces from outside: exact but for rounding.
+  CHECK(d.spin_drift <= 1e-12);
+  CHECK(d.drift <= 1e-12 * radius);
+  // Sixfold symmetry of mesh and motion; the order of sums and the axes of strain are not the same in each: rounding of
+  // E u / R, grown over thousands of steps.
+  CHECK(d.stress_apart <= 1e-9 * exact_stress);
+  return level;
+}
+
+double order(double coarse, double fine, double ratio) { return std::log(coarse / fine) / std::log(ratio); }
+
+}  // namespace
+
+TEST_CASE("spinning-disc: mean against the static state") {
+  CHECK(exact_growth == doctest::Approx(5.10250e-6).epsilon(1e-5));
+  CHECK(exact_stress == doctest::Approx(33.6429e6).epsilon(1e-5));
+  CHECK(exact_spin == doctest::Approx(1233.08).epsilon(1e-5));
+  const Level coarse = check_disc(0.02);
+  check_disc(0.01);
+  const Level fine = check_disc(0.005);
+  const double growth = order(coarse.growth_error, fine.growth_error, 4);
+  const double stress = order(coarse.stress_error, fine.stress_error, 4);
+  const double inertia = order(coarse.spin_error, fine.spin_error, 4);
+  MESSAGE("order in the mesh: u(R) " << growth << " (2 expected), s_r(0) " << stress << " (1 or better), spin momentum "
+                                     << inertia << " (2)");
+  CHECK(growth >= 1.7);
+  CHECK(stress >= 0.9);
+  CHECK(inertia >= 1.9);
+}
+
+TEST_CASE("spinning-disc: a finer mesh (long)") {
+  check_disc(0.0025);
+}
+
+}  // namespace udar::verification
