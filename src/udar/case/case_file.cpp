@@ -10,6 +10,7 @@
 #include "udar/case/document.hpp"
 #include "udar/case/keys.hpp"
 #include "udar/case/rules.hpp"
+#include "udar/case/tables.hpp"
 
 namespace udar {
 namespace {
@@ -80,8 +81,6 @@ void check_case(const Case& c, std::vector<Diagnostic>* warnings) {
   check(c, mistakes, nullptr, warnings);
 }
 
-std::string to_toml(const Case& c) {
-  return write_section(case_schema(), c, "", "");
-}
+std::string to_toml(const Case& c) { return write_section(case_schema(), c, "", ""); }
 
 }  // namespace udar

@@ -2,6 +2,8 @@
 
 #include <functional>
 
+#include "udar/case/tables.hpp"
+
 namespace udar {
 namespace {
 

@@ -8,6 +8,7 @@
 #include "udar/base/text.hpp"
 #include "udar/case/ascii.hpp"
 #include "udar/case/keys.hpp"
+#include "udar/case/tables.hpp"
 #include "udar/units/unit_table.hpp"
 
 namespace udar {
@@ -82,9 +83,7 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
-std::string code(std::string_view text) {
-  return text.empty() ? "" : fmt::format("`{}`", text);
-}
+std::string code(std::string_view text) { return text.empty() ? "" : fmt::format("`{}`", text); }
 
 std::string markdown_rows(const std::vector<KeyText>& keys) {
   std::string out = "| key | value | default | meaning | example |\n|---|---|---|---|---|\n";
@@ -118,9 +117,7 @@ std::string terminal_text(const KeyText& k, const std::string& path, const std::
 
 }  // namespace
 
-std::string_view example_case() {
-  return example;
-}
+std::string_view example_case() { return example; }
 
 std::string case_file_reference() {
   std::string units;

@@ -215,5 +215,3 @@ Alternatives<Owner> alternatives(std::string name, std::string doc, Variant Owne
 }
 
 }  // namespace udar
-
-#include "udar/case/tables.hpp"  // IWYU pragma: export

@@ -2,7 +2,7 @@
 
 #include "udar/case/kinds.hpp"
 #include "udar/case/path.hpp"
-#include "udar/case/schema.hpp"
+#include "udar/case/tables.hpp"
 
 namespace udar {
 namespace {
