@@ -170,7 +170,7 @@ Key<Owner> key_of_parameter(const Parameter<Owner>& p) {
     const Parameter<Owner>& p;
     const QuantityKind& quantity;
     Need need;
-    Key<Owner> operator()(double Owner::*member) const { return key(p.name, member, quantity, p.doc, need); }
+    Key<Owner> operator()(double Owner::*member) const { return key(p.name, member, quantity, p.doc, need, p.example); }
     Key<Owner> operator()(Vec2 Owner::*member) const { return key(p.name, member, VectorKind{quantity}, p.doc, need); }
     Key<Owner> operator()(std::vector<Vec2> Owner::*member) const {
       return key(p.name, member, PointsKind{quantity}, p.doc, need);

@@ -23,11 +23,14 @@ struct Tresca {
   static std::vector<Parameter<Tresca>> parameters() {
     auto all = elastic_parameters<Tresca>();
     all.push_back({"yield_stress", &Tresca::yield_stress, dimension::stress, limits::positive,
-                   "tensile yield stress: the largest difference of two principal stresses"});
+                   "tensile yield stress: the largest difference of two principal stresses", true,
+                   R"("2400 kgf/cm^2")"});
     return all;
   }
 
-  [[nodiscard, gnu::always_inline]] Elasticity elasticity() const { return elasticity_of(young_modulus, poisson_ratio); }
+  [[nodiscard, gnu::always_inline]] Elasticity elasticity() const {
+    return elasticity_of(young_modulus, poisson_ratio);
+  }
 
   /// Returns the trial stress to the yield surface along its normal. All principal stresses end between two bounds
   /// yield_stress apart: those of the face crossed by the largest difference or, where the middle one would then lie
