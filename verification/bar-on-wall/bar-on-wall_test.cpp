@@ -9,11 +9,13 @@ constexpr double bar_length = 0.1;
 constexpr double height = 0.004;
 constexpr double speed = 1;
 
-// What the scheme itself smears: with linear elements, lumped masses and central difference the frequency of wave number
-// k is c k (1 - (1 - C^2) (k h)^2 / 24), C = c dt / h the step in cells. A jump that has run a way D is then the integral
-// of Airy's function with the length l = ((1 - C^2) h^2 D / 8)^(1/3). The automatic step is 0.9 x 0.9 x 0.707 h / c or
-// so: C = 0.6 (with nu = 0 the element factor is 1 or less).
-double airy_length(double element_size, double way) { return std::cbrt((1 - 0.36) * element_size * element_size * way / 8); }
+// What the scheme itself smears: with linear elements, lumped masses and central difference the frequency of wave
+// number k is c k (1 - (1 - C^2) (k h)^2 / 24), C = c dt / h the step in cells. A jump that has run a way D is then the
+// integral of Airy's function with the length l = ((1 - C^2) h^2 D / 8)^(1/3). The automatic step is 0.9 x 0.9 x 0.707
+// h / c or so: C = 0.6 (with nu = 0 the element factor is 1 or less).
+double airy_length(double element_size, double way) {
+  return std::cbrt((1 - 0.36) * element_size * element_size * way / 8);
+}
 
 Case bar(int cells) {
   Case input = load("bar-on-wall.toml");
@@ -33,9 +35,18 @@ Fields half_way(int cells) {
   input.run.end_time = time;
   Run run(input);
   run.run();
-  const Norms u = displacement_error(run, [&](Vec2 p) { return Vec2{-speed * std::min(time, p.x / c), 0}; }, 4);
+  const Norms u = displacement_error(
+      run,
+      [&](Vec2 p) {
+        return Vec2{-speed * std::min(time, p.x / c), 0};
+      },
+      4);
   const Norms s = stress_error(
-      run, [&](Vec2 p) { return SymTensor<double>{p.x < c * time ? -density * c * speed : 0, 0, 0, 0}; }, 4);
+      run,
+      [&](Vec2 p) {
+        return SymTensor<double>{p.x < c * time ? -density * c * speed : 0, 0, 0, 0};
+      },
+      4);
   return {u.relative(), s.relative()};
 }
 
@@ -47,6 +58,7 @@ struct Bounce {
   double momentum;     ///< relative imbalance
   double energy;
   double mirror;
+  double mirror_bound;
 };
 
 Bounce bounce(int cells) {
@@ -72,13 +84,17 @@ Bounce bounce(int cells) {
   });
   const double transit = bar_length / c;
   const double momentum = run.state.ledger.momentum.x;
+  // Places are rounded to 1.4e-17 m (half a unit of the last digit of 0.1 m); sides of elements are off by that, so are
+  // forces: s x 1.4e-17 m on a mass rho h^2, 0.6 h/c long, is V x 1e-17 m / h. Random over the steps; ten times that.
+  const double mirror_bound = 10 * 1e-17 * cells / bar_length * std::sqrt(static_cast<double>(run.state.clock.step));
   return {last - first,
           momentum / (run.model.bodies[0].mass * speed),
           force.mean(0.5 * transit, 1.5 * transit),
           stress.mean(0.8 * transit, 1.2 * transit),
           momentum_error(run),
           run.state.ledger.energy_error(),
-          mirror_error(run, false, 0.5 * height, 1)};
+          mirror_error(run, false, 0.5 * height, 1),
+          mirror_bound};
 }
 
 void check_fields(const std::vector<int>& meshes) {
@@ -87,10 +103,11 @@ void check_fields(const std::vector<int>& meshes) {
     const Fields fields = half_way(cells);
     displacement.push_back(fields.displacement);
     stress.push_back(fields.stress);
-    // The jump is smeared and rings over some Airy lengths: squared error (rho c V)^2 l x integral of (step - Airy integral)^2
-    // = 0.5 or so against c t = L/2. Twice for what penalty and two kinds of nodes add.
+    // The jump is smeared and rings over some Airy lengths: squared error (rho c V)^2 l x integral of (step - Airy
+    // integral)^2 = 0.5 or so against c t = L/2. Twice for what penalty and two kinds of nodes add.
     const double l = airy_length(bar_length / cells, 0.5 * bar_length);
-    CHECK(below(fmt::format("{} cells: stress, L2 error", cells), fields.stress, 2 * std::sqrt(0.5 * l / (0.5 * bar_length))));
+    CHECK(below(fmt::format("{} cells: stress, L2 error", cells), fields.stress,
+                2 * std::sqrt(0.5 * l / (0.5 * bar_length))));
     // Displacement: at most the jump in slope V/c over l at the front, and behind it the wall's give, a spring as stiff
     // as the first element: u off by h V / c everywhere, over a largest value L V / 2 c.
     const double h = bar_length / cells;
@@ -113,7 +130,8 @@ void check_bounces(const std::vector<int>& meshes) {
     const double l = airy_length(h, 2 * bar_length);
     // The front that ends the contact has run 2 L: its middle lies within 2 Airy lengths of the exact one; the wall's
     // spring gives by one element.
-    CHECK(within(fmt::format("{} cells: contact (s)", cells), b.duration, 2 * bar_length / c, (2 * l + h) / (2 * bar_length)));
+    CHECK(within(fmt::format("{} cells: contact (s)", cells), b.duration, 2 * bar_length / c,
+                 (2 * l + h) / (2 * bar_length)));
     // The ringing dies away from the start of contact (as Airy's function, (x/l)^(-3/4)) and its mean over many periods
     // is small: 1 %.
     CHECK(within(fmt::format("{} cells: wall force (N)", cells), b.force, density * c * speed * height, 0.01));
@@ -123,7 +141,7 @@ void check_bounces(const std::vector<int>& meshes) {
     CHECK(b.restitution < 1);
     CHECK(below("momentum: change less impulses", b.momentum, 1e-12));
     CHECK(below("energy error", b.energy, 1e-3));
-    CHECK(below("mirror symmetry", b.mirror, 1e-11));
+    CHECK(below("mirror symmetry", b.mirror, b.mirror_bound));
     lost.push_back(1 - b.restitution);
   }
   // Airy's length: order 2/3.

@@ -1,8 +1,7 @@
-#include "wave_tools.hpp"
-
 #include "udar/base/error.hpp"
 #include "udar/mesh/node_corners.hpp"
 #include "udar/step/element_kernels.hpp"
+#include "wave_tools.hpp"
 
 namespace udar::verification {
 namespace {
@@ -231,9 +230,10 @@ TEST_CASE("element-step: one triangle rings for ever below the limit") {
       run.step();
       largest = std::max(largest, run.state.ledger.half_step_kinetic);
     }
-    // (1 - z^2/4) v_{n+1/2}^2 + (w (x_n + x_{n+1})/2)^2 stays as it is for central difference, z = h w. So the half-step
-    // energy of a mode reaches 1/(1 - z^2/4) times that at the start and never more; z/2 = 0.999 in the fastest mode.
-    // In 1e5 steps its phase comes within 1e-4 of every value; the slower modes are far below their limit.
+    // (1 - z^2/4) v_{n+1/2}^2 + (w (x_n + x_{n+1})/2)^2 stays as it is for central difference, z = h w. So the
+    // half-step energy of a mode reaches 1/(1 - z^2/4) times that at the start and never more; z/2 = 0.999 in the
+    // fastest mode. In 1e5 steps its phase comes within 1e-4 of every value; the slower modes are far below their
+    // limit.
     const double bound = 1 / (1 - safety * safety);
     const double share = share_of_largest_mode(run.model, shape.corners);
     const double ratio = largest / run.state.ledger.start_kinetic;
@@ -269,8 +269,8 @@ TEST_CASE("element-step: one triangle grows above the limit, at the rate of theo
       run.step();
     }
     const double measured = std::pow(energy[300] / energy[200], 0.5 / 100);
-    // After 200 steps everything else is 1e-5 of the growing mode in amplitude, 1e-10 in energy; over 100 steps that is 1e-12.
-    // Strain reaches 1e-6 and moves the limit by as much: 1e-6 of z, z growth' / growth = 32: 3e-5.
+    // After 200 steps everything else is 1e-5 of the growing mode in amplitude, 1e-10 in energy; over 100 steps that is
+    // 1e-12. Strain reaches 1e-6 and moves the limit by as much: 1e-6 of z, z growth' / growth = 32: 3e-5.
     CHECK(within(fmt::format("growth per step, {}", shape.name), measured - 1, growth - 1, 1e-3));
   }
 }

@@ -125,10 +125,10 @@ Surface push(double poisson, double element_size) {
   return {distance / time, std::sqrt(error / norm)};
 }
 
-// Linear elements, lumped masses and central difference carry wave number k at c (1 - (k h)^2 / 24) in one dimension. The
-// arrival by correlation weighs that with k^2 |F|^2, F the pulse's spectrum: for the ramp's rate, a bell of length
-// c_R rise = l, that is <k^4>/<k^2> = 42 / l^2, so 1.75 (h / l)^2. Twice that for the second direction: a surface wave is
-// sheared as much across the depth as along.
+// Linear elements, lumped masses and central difference carry wave number k at c (1 - (k h)^2 / 24) in one dimension.
+// The arrival by correlation weighs that with k^2 |F|^2, F the pulse's spectrum: for the ramp's rate, a bell of length
+// c_R rise = l, that is <k^4>/<k^2> = 42 / l^2, so 1.75 (h / l)^2. Twice that for the second direction: a surface wave
+// is sheared as much across the depth as along.
 double speed_bound(double element_size, double speed) { return 3.5 * std::pow(element_size / (speed * rise), 2); }
 // The shape is shifted by 1.75 (h/l)^2 of the travel time x / c_R; times its rms wave number sqrt(12) / l.
 double history_bound(double element_size, double speed) {
@@ -144,7 +144,8 @@ void check_speed(double poisson, double ratio, const std::vector<double>& sizes)
   std::vector<double> errors, histories;
   for (const double h : sizes) {
     const Surface surface = push(poisson, h);
-    CHECK(within(fmt::format("nu = {}, h = {} mm: c_R (m/s)", poisson, 1e3 * h), surface.speed, c_r, speed_bound(h, c_r)));
+    CHECK(within(fmt::format("nu = {}, h = {} mm: c_R (m/s)", poisson, 1e3 * h), surface.speed, c_r,
+                 speed_bound(h, c_r)));
     CHECK(below(fmt::format("nu = {}, h = {} mm: velocity along the surface at 1.2 m, L2 error", poisson, 1e3 * h),
                 surface.history, history_bound(h, c_r)));
     errors.push_back(std::fabs(surface.speed / c_r - 1));

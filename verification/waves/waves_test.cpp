@@ -71,8 +71,8 @@ Front send(Wave wave, int cells_per_rise) {
 }
 
 // Numerical dispersion: linear elements, lumped masses and central difference carry a wave number k at
-// c (1 - (k h)^2 / 24) at most (one dimension, steps far below the limit; larger steps do better), and its group 3 times
-// as much slower. The rise is half a wave: k = pi over its length, k h = pi / n with n cells in it.
+// c (1 - (k h)^2 / 24) at most (one dimension, steps far below the limit; larger steps do better), and its group 3
+// times as much slower. The rise is half a wave: k = pi over its length, k h = pi / n with n cells in it.
 double front_bound(int cells_per_rise) { return std::pow(pi / cells_per_rise, 2) / 8; }
 
 void check_front(Wave wave, const char* name, double speed) {
@@ -80,7 +80,8 @@ void check_front(Wave wave, const char* name, double speed) {
   std::vector<double> errors;
   for (const int n : cells) {
     const Front front = send(wave, n);
-    CHECK(within(fmt::format("{} front speed (m/s), {} cells in the rise", name, n), front.speed, speed, front_bound(n)));
+    CHECK(
+        within(fmt::format("{} front speed (m/s), {} cells in the rise", name, n), front.speed, speed, front_bound(n)));
     errors.push_back(front.history);
     // The order of sums at the nodes is not mirrored: rounding only, which 1e3 steps add up.
     CHECK(below("mirror symmetry", front.mirror, 1e-11));
@@ -149,22 +150,24 @@ Errors ring(double side, double element_size, const char* diagonals) {
   return {u.relative(), s.relative()};
 }
 
-/// Bounds from theory. Stress: the error of the finite element stress is about that of linear interpolation (best in the
-/// energy norm). In a right triangle of leg h a derivative along a leg is taken from the middle of that leg: for a wave
-/// along x that is off by h/6 from the centroid, and a constant cannot follow the slope (h^2/18): k h sqrt(1/18 + 1/36).
-/// For Lame's mode all derivatives count: k h sqrt(2.06 / 2) with lambda = 1.5 G. A fifth more for dispersion. Displacement:
-/// interpolation (k h)^2 / 8 at most, and the phase w t (k h)^2 / 24, at 9/8 of a period 0.29 (k h)^2; on meshes with two
-/// kinds of nodes up to twice that.
+/// Bounds from theory. Stress: the error of the finite element stress is about that of linear interpolation (best in
+/// the energy norm). In a right triangle of leg h a derivative along a leg is taken from the middle of that leg: for a
+/// wave along x that is off by h/6 from the centroid, and a constant cannot follow the slope (h^2/18): k h sqrt(1/18 +
+/// 1/36). For Lame's mode all derivatives count: k h sqrt(2.06 / 2) with lambda = 1.5 G. A fifth more for dispersion.
+/// Displacement: interpolation (k h)^2 / 8 at most, and the phase w t (k h)^2 / 24, at 9/8 of a period 0.29 (k h)^2; on
+/// meshes with two kinds of nodes up to twice that.
 constexpr double plane_stress_factor = 1.2 * 0.28868;
 constexpr double lame_stress_factor = 1.2 * 1.0155 / std::numbers::sqrt2;  // k is sqrt(2) pi / L here
 
 template <class Solve>
-void check_mode(const std::string& name, double wave_number, double stress_factor, const std::vector<double>& sizes, Solve&& solve) {
+void check_mode(const std::string& name, double wave_number, double stress_factor, const std::vector<double>& sizes,
+                Solve&& solve) {
   std::vector<double> displacement, stress;
   for (const double h : sizes) {
     const Errors e = solve(h);
     const double kh = wave_number * h;
-    CHECK(below(fmt::format("{}, k h = {:.3f}: displacement", name, kh), e.displacement, (1.0 / 8 + 2 * 0.29) * kh * kh));
+    CHECK(
+        below(fmt::format("{}, k h = {:.3f}: displacement", name, kh), e.displacement, (1.0 / 8 + 2 * 0.29) * kh * kh));
     CHECK(below(fmt::format("{}, k h = {:.3f}: stress", name, kh), e.stress, stress_factor * kh));
     displacement.push_back(e.displacement);
     stress.push_back(e.stress);
@@ -201,12 +204,14 @@ TEST_CASE("waves: front in a slender bar") {
 
 TEST_CASE("waves: standing P wave") {
   for (const char* d : {"right", "alternating", "crossed"}) {
-    check_mode(fmt::format("P, {}", d), 2 * pi / 0.4, plane_stress_factor, coarse, [&](double h) { return stand(false, h, d); });
+    check_mode(fmt::format("P, {}", d), 2 * pi / 0.4, plane_stress_factor, coarse,
+               [&](double h) { return stand(false, h, d); });
   }
 }
 TEST_CASE("waves: standing S wave") {
   for (const char* d : {"right", "alternating", "crossed"}) {
-    check_mode(fmt::format("S, {}", d), 2 * pi / 0.4, plane_stress_factor, coarse, [&](double h) { return stand(true, h, d); });
+    check_mode(fmt::format("S, {}", d), 2 * pi / 0.4, plane_stress_factor, coarse,
+               [&](double h) { return stand(true, h, d); });
   }
 }
 TEST_CASE("waves: Lame's mode of a free square") {
@@ -218,9 +223,12 @@ TEST_CASE("waves: Lame's mode of a free square") {
 
 TEST_CASE("waves: finer meshes (long)") {
   const std::vector<double> fine{0.00125, 0.000625};
-  check_mode("P, alternating", 2 * pi / 0.4, plane_stress_factor, fine, [](double h) { return stand(false, h, "alternating"); });
-  check_mode("S, alternating", 2 * pi / 0.4, plane_stress_factor, fine, [](double h) { return stand(true, h, "alternating"); });
-  check_mode("Lame, alternating", std::sqrt(2.0) * pi / 0.2, lame_stress_factor, fine, [](double h) { return ring(0.2, h, "alternating"); });
+  check_mode("P, alternating", 2 * pi / 0.4, plane_stress_factor, fine,
+             [](double h) { return stand(false, h, "alternating"); });
+  check_mode("S, alternating", 2 * pi / 0.4, plane_stress_factor, fine,
+             [](double h) { return stand(true, h, "alternating"); });
+  check_mode("Lame, alternating", std::sqrt(2.0) * pi / 0.2, lame_stress_factor, fine,
+             [](double h) { return ring(0.2, h, "alternating"); });
 }
 
 }  // namespace udar::verification

@@ -76,12 +76,16 @@ double fixed_step(const Model& model, Clock& clock) {
   return model.run.when_unstable == WhenUnstable::shorten ? model.run.step_safety * clock.limit.size : step;
 }
 
-double automatic_step(const Model& model, Clock& clock) {
+double automatic_step(const Model& model, Clock& clock, double left) {
   // It shrinks at once but grows slowly: a step that jitters costs energy.
   constexpr double largest_growth = 1.01;
   const double wanted = model.run.step_safety * clock.limit.size;
   const double allowed = clock.automatic_step > 0 ? largest_growth * clock.automatic_step : wanted;
-  return clock.automatic_step = std::min(wanted, allowed);
+  clock.automatic_step = std::min(wanted, allowed);
+  // For the same reason the last hundred steps share out what is left, instead of one short step at the end.
+  const double steps_left = left / clock.automatic_step;
+  constexpr double shared_out = 100;
+  return steps_left > 0 && steps_left < shared_out ? left / std::ceil(steps_left) : clock.automatic_step;
 }
 
 }  // namespace
@@ -94,8 +98,8 @@ void choose_time_step(const Model& model, State& state, Workspace& work) {
     clock.tightest = clock.limit;
     clock.tightest_time = clock.time.value();
   }
-  const double step = model.run.time_step ? fixed_step(model, clock) : automatic_step(model, clock);
   const double left = model.run.end_time - clock.time.value();
+  const double step = model.run.time_step ? fixed_step(model, clock) : automatic_step(model, clock, left);
   // The last step ends on the end time; a remainder too small to be a step of its own is taken along.
   const bool last = left > 0 && left <= step * (1 + 1e-6);
   clock.next_step = last ? left : step;

@@ -6,8 +6,7 @@
 #include "udar/base/lanes.hpp"
 #include "udar/step/element_kernels.hpp"
 
-namespace udar {
-namespace UDAR_ISA {
+namespace udar::UDAR_ISA {
 namespace {
 
 /// One number for each element of a block.
@@ -152,5 +151,4 @@ struct Kernels<std::variant<Laws...>> {
 
 const BlockKernel* block_kernels() { return Kernels<Law>::of_law; }
 
-}  // namespace UDAR_ISA
-}  // namespace udar
+}  // namespace udar::UDAR_ISA
