@@ -34,7 +34,7 @@ const Schema<RunSettings>& run_schema() {
       .doc = "What is computed, and how.",
       .keys = {
           key("end_time", &R::end_time, positive_time, "how long is computed", required),
-          key("integrator", &R::integrator, WordKind{{"central_difference", "adams", "adams2", "adams2_new_velocity"}},
+          key("integrator", &R::integrator, WordKind{{integrator_words.begin(), integrator_words.end()}},
               "how velocities and positions are carried over a step"),
           key("time_step", &R::time_step, QuantityOrWordKind{positive_time, "auto"},
               "a fixed step, or step_safety of the stable limit", Need::optional, "\"6.4e-8 s\""),

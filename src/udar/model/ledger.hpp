@@ -43,7 +43,7 @@ struct Ledger {
   // Node side.
   double start_energy = 0;       ///< J, kinetic and in contact springs at t = 0
   double start_kinetic = 0;      ///< J
-  double kinetic_energy = 0;     ///< J at t_n, sum m v_{n-1/2} . v_{n+1/2} / 2
+  double kinetic_energy = 0;     ///< J at t_n, sum m v_{n-1/2} . (v_{n-1/2} + h_n a_n) / 2
   double half_step_kinetic = 0;  ///< J, sum m v_{n+1/2}^2 / 2
   Vec2 carried{};                ///< kg m/s, sum of m (x_{n+1} - x_n) / h
   Vec2 momentum{};               ///< kg m/s, what the impulses add up to: at t_{n+1/2} for central difference, else t_n

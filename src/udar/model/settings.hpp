@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "udar/base/time_table.hpp"
@@ -9,6 +10,9 @@ namespace udar {
 
 /// How velocities and positions are carried over a step; see docs/theory.md.
 enum class Integrator { central_difference, adams, adams2, adams2_new_velocity };
+/// What a case file calls them, in the same order; step/integrators.hpp has their rules.
+inline constexpr std::array<const char*, 4> integrator_words{"central_difference", "adams", "adams2",
+                                                             "adams2_new_velocity"};
 
 /// What to do when the stable limit falls below a fixed step.
 enum class WhenUnstable { shorten, stop, carry_on };

@@ -40,7 +40,7 @@ struct Clock {
   double step_before = 0;         ///< s, h_{n-1}
   double second_step_before = 0;  ///< s, h_{n-2}
   double next_step = 0;           ///< s, h_{n+1}
-  double automatic_step = 0;      ///< s, what an automatic step may grow from
+  double planned_step = 0;        ///< s, the last one chosen, before it was fitted to the end time
   StepLimit limit;                ///< at t_n
   double start_limit = 0;         ///< s, stable limit at t = 0
   StepLimit tightest;             ///< smallest stable limit so far, and what set it
@@ -80,8 +80,8 @@ struct State {
   std::vector<ObstacleBook> obstacles;
   std::vector<Vec2> load_forces;     ///< N, load by load, node by node
   std::vector<Vec2> support_forces;  ///< N, support by support, node by node
-  std::vector<Vec2> body_momentum;   ///< kg m/s, one for each body, with the velocity of the coming step
-  double largest_penetration = 0;    ///< over the size of the touching node's smallest element
+  std::vector<Vec2> body_momentum;   ///< kg m/s, one for each body: sum of m times the velocity over the coming step
+  double largest_penetration = 0;    ///< over the mean length of the boundary edges at the node
   Ledger ledger;
 };
 

@@ -13,12 +13,15 @@ struct Drive {
 
 /// v_{n+1/2} = v_{n-1/2} + a_n (h_n + h_{n+1}) / 2.
 struct CentralDifference {
-  double span;  ///< s
+  double span;       ///< s
+  double last_step;  ///< s, h_n
 
   Vec2 next_velocity(State&, Index, Vec2 before, Vec2 acceleration) const { return before + span * acceleration; }
 
-  void book(NodeSums& sums, const State&, Index, double mass, Vec2 before, Vec2 after) const {
-    sums.kinetic += mass * dot(before, after);
+  /// v_{n-1/2} . v_{n+1/2} as if the next step were as long as the last: with the velocity after a step of another
+  /// length the energy at t_n would be wrong to first order.
+  void book(NodeSums& sums, const State& state, Index i, double mass, Vec2 before, Vec2) const {
+    sums.kinetic += mass * dot(before, before + last_step * state.acceleration[i]);
   }
   static void finish(NodeSums& sums) { sums.momentum = sums.carried; }
 };
@@ -124,7 +127,7 @@ void accelerate_nodes(const Model& model, State& state, Workspace& work) {
   const Clock& clock = state.clock;
   const IntegratorRule& rule = rule_of(model.run.integrator);
   if (rule.weights == nullptr) {
-    accelerate_all(model, state, work, CentralDifference{velocity_span(clock)});
+    accelerate_all(model, state, work, CentralDifference{velocity_span(clock), clock.last_step});
   } else {
     const bool first = clock.step == 0;
     const StepWeights done =

@@ -64,48 +64,40 @@ StepLimit stable_limit(const Model& model, const State& state, const Workspace& 
   return found;
 }
 
-double fixed_step(const Model& model, Clock& clock) {
+/// What the case asks for: a fixed step, as far as it is stable or the case insists, or a part of the stable limit.
+double wanted_step(const Model& model, Clock& clock) {
+  const double safe_step = model.run.step_safety * clock.limit.size;
+  if (!model.run.time_step) return safe_step;
   const double step = *model.run.time_step;
   if (step <= clock.limit.size || rule_of(model.run.integrator).stable_limit == 0) return step;
-  if (model.run.when_unstable == WhenUnstable::stop && clock.step > 0) fail_unstable(model, clock);
+  if (model.run.when_unstable == WhenUnstable::stop) fail_unstable(model, clock);
   if (clock.shortened++ == 0) {
     clock.first_shortened = clock.time.value();
     clock.first_shortened_element = clock.limit.element;
   }
   clock.largest_excess = std::max(clock.largest_excess, step / clock.limit.size);
-  return model.run.when_unstable == WhenUnstable::shorten ? model.run.step_safety * clock.limit.size : step;
+  return model.run.when_unstable == WhenUnstable::shorten ? safe_step : step;
 }
 
-double automatic_step(const Model& model, Clock& clock, double left) {
-  // It shrinks at once but grows slowly: a step that jitters costs energy.
+/// A step that jitters costs energy: it shrinks at once but grows slowly.
+double next_step(const Model& model, Clock& clock) {
   constexpr double largest_growth = 1.01;
-  const double wanted = model.run.step_safety * clock.limit.size;
-  const double allowed = clock.automatic_step > 0 ? largest_growth * clock.automatic_step : wanted;
-  clock.automatic_step = std::min(wanted, allowed);
-  // For the same reason the last hundred steps share out what is left, instead of one short step at the end.
-  const double steps_left = left / clock.automatic_step;
+  const double wanted = wanted_step(model, clock);
+  clock.planned_step = clock.step == 0 ? wanted : std::min(wanted, largest_growth * clock.planned_step);
+  return clock.planned_step;
+}
+
+/// The run ends on its end time. For the sake of the energy the last hundred automatic steps share out what is left; a
+/// fixed step stays fixed, and its last one is cut. A remainder too small to be a step of its own is taken along.
+double fitted_to_end(const Model& model, double step, double left) {
   constexpr double shared_out = 100;
-  return steps_left > 0 && steps_left < shared_out ? left / std::ceil(steps_left) : clock.automatic_step;
+  if (left <= 0) return step;
+  if (left <= step * (1 + 1e-6)) return left;
+  if (!model.run.time_step && left < shared_out * step) return left / std::ceil(left / step);
+  return step;
 }
 
-}  // namespace
-
-void choose_time_step(const Model& model, State& state, Workspace& work) {
-  Clock& clock = state.clock;
-  clock.limit = stable_limit(model, state, work);
-  if (clock.step == 0) clock.start_limit = clock.limit.size;
-  if (clock.step == 0 || clock.limit.size < clock.tightest.size) {
-    clock.tightest = clock.limit;
-    clock.tightest_time = clock.time.value();
-  }
-  const double left = model.run.end_time - clock.time.value();
-  const double step = model.run.time_step ? fixed_step(model, clock) : automatic_step(model, clock, left);
-  // The last step ends on the end time; a remainder too small to be a step of its own is taken along.
-  const bool last = left > 0 && left <= step * (1 + 1e-6);
-  clock.next_step = last ? left : step;
-  if (clock.next_step < 1e-12 * model.run.end_time && !last) fail_collapsing_step(model, state);
-}
-
+/// A fixed step that is above the limit from the start is a mistake in the case.
 void refuse_unstable_step(const Model& model, const State& state) {
   if (!model.run.time_step || rule_of(model.run.integrator).stable_limit == 0) return;
   const StepLimit& limit = state.clock.limit;
@@ -118,6 +110,27 @@ void refuse_unstable_step(const Model& model, const State& state) {
                               model.element_numbers[limit.element], body.name,
                               limit.by_contact != 0 ? " and its contact springs" : ""),
                   fmt::format("write time_step = \"{:.3g} s\" or less, or \"auto\"", 0.9 * limit.size));
+}
+
+}  // namespace
+
+void choose_time_step(const Model& model, State& state, Workspace& work) {
+  Clock& clock = state.clock;
+  clock.limit = stable_limit(model, state, work);
+  if (clock.step == 0) {
+    refuse_unstable_step(model, state);
+    clock.start_limit = clock.limit.size;
+  }
+  if (clock.step == 0 || clock.limit.size < clock.tightest.size) {
+    clock.tightest = clock.limit;
+    clock.tightest_time = clock.time.value();
+  }
+  const double left = model.run.end_time - clock.time.value();
+  const double step = next_step(model, clock);
+  if (step < 1e-12 * model.run.end_time) fail_collapsing_step(model, state);
+  clock.smallest_step = clock.step == 0 ? step : std::min(clock.smallest_step, step);
+  clock.largest_step = std::max(clock.largest_step, step);
+  clock.next_step = fitted_to_end(model, step, left);
 }
 
 }  // namespace udar

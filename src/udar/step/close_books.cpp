@@ -48,12 +48,14 @@ class Booking {
     if (!state_.velocity_before.empty()) return state_.velocity_before[node];
     return after(node) - span_ * state_.acceleration[node];
   }
-  [[nodiscard]] double work_before(const Account& a) const { return before_ * a.power_before; }
-  [[nodiscard]] double work_after(const Account& a) const { return after_ * a.power_after; }
+  /// Work from the middle of the last step to t_n, J.
+  [[nodiscard]] double work_until_now(const Account& a) const { return 0.5 * state_.clock.last_step * a.power_before; }
+  /// Work from the middle of the last step to the middle of the coming one, J.
+  [[nodiscard]] double work(const Account& a) const { return before_ * a.power_before + after_ * a.power_after; }
 
   void enter(const Account& account, ForceBook& book) const {
-    book.work_now = book.work.value() + work_before(account);
-    book.work.add(work_before(account) + work_after(account));
+    book.work_now = book.work.value() + work_until_now(account);
+    book.work.add(work(account));
     Vec2 impulse = span_ * account.force;
     if (rule_.weights != nullptr) {
       impulse = done_.implicit * account.force;
@@ -128,7 +130,7 @@ NodeSums total_of_nodes(const Model& model, State& state, const Workspace& work)
     total.spin += sums.spin;
     total.carried += sums.carried;
     total.momentum += sums.momentum;
-    state.body_momentum[model.node_blocks[b].body] += sums.momentum;
+    state.body_momentum[model.node_blocks[b].body] += sums.carried;
   }
   return total;
 }
@@ -177,13 +179,13 @@ void close_books(const Model& model, State& state, Workspace& work) {
   booking.enter({nodes.damping_force, nodes.damping_before, nodes.damping_after}, ledger.book(ForceKind::damping));
   ledger.book(ForceKind::internal).work.add(0.5 * velocity_span(state.clock) * nodes.internal_power);
 
-  ledger.obstacle_work_now = ledger.obstacle_work.value() + booking.work_before(obstacles);
-  ledger.obstacle_work.add(booking.work_before(obstacles) + booking.work_after(obstacles));
+  ledger.obstacle_work_now = ledger.obstacle_work.value() + booking.work_until_now(obstacles);
+  ledger.obstacle_work.add(booking.work(obstacles));
   Account external = gravity;
   external += loads;
   external += supports;
   external += obstacles;
-  ledger.external_throughput.add(std::fabs(booking.work_before(external) + booking.work_after(external)));
+  ledger.external_throughput.add(std::fabs(booking.work(external)));
 
   ledger.energy_gap = std::max(ledger.energy_gap, std::fabs(ledger.energy_balance()));
   double node_work = 0;
@@ -196,9 +198,10 @@ void close_books(const Model& model, State& state, Workspace& work) {
       std::max(ledger.identity_gap, std::fabs(ledger.half_step_kinetic - ledger.start_kinetic - node_work));
   ledger.momentum_gap = std::max(ledger.momentum_gap, length(ledger.momentum - ledger.start_momentum - impulses));
 
-  // In the very first steps there is hardly any energy to compare with where a body starts from rest.
+  // Where everything starts from rest there is hardly any energy to compare with in the very first steps.
   constexpr std::uint64_t first_judged = 100;
-  const bool judged = state.clock.step >= first_judged && model.run.when_unstable != WhenUnstable::carry_on;
+  const bool enough = state.clock.step >= first_judged || ledger.start_energy > 0;
+  const bool judged = enough && model.run.when_unstable != WhenUnstable::carry_on;
   if (judged && ledger.energy_error() > model.run.stop_at_energy_error) fail_energy(model, state);
 }
 

@@ -18,10 +18,10 @@ struct ElementSums {
 /// One block of elements with the arrays it reads and writes, from its first element on.
 struct BlockTask {
   const NodeRecord* nodes;
-  const Index* corners;  ///< three for each element
-  Index count;           ///< elements, a multiple of `lanes`
-  double step;           ///< s
-  double half_thickness; ///< m
+  const Index* corners;   ///< three for each element
+  Index count;            ///< elements, a multiple of `lanes`
+  double step;            ///< s
+  double half_thickness;  ///< m
   const double* area_density;
   double* xx;
   double* yy;

@@ -43,14 +43,21 @@ StepWeights adams_weights(const StepHistory& steps);
 StepWeights adams2_weights(const StepHistory& steps);
 StepWeights adams2_new_velocity_weights(const StepHistory& steps);
 
-/// Every integrator. A new one is added here and nowhere else.
-inline constexpr std::array<IntegratorRule, 4> integrators{{
-    {Integrator::central_difference, "central_difference", "velocities at half steps; loses no energy", 2, 0, nullptr},
-    {Integrator::adams, "adams", "Adams with three accelerations", 0.966, 2, adams_weights},
-    {Integrator::adams2, "adams2", "Adams with two accelerations; never stable, for study", 0, 1, adams2_weights},
-    {Integrator::adams2_new_velocity, "adams2_new_velocity", "the same, places with the new velocity; damps high modes",
+/// Every integrator, in the order of the enum Integrator.
+inline constexpr std::array<IntegratorRule, integrator_words.size()> integrators{{
+    {Integrator::central_difference, integrator_words[0], "velocities at half steps; loses no energy", 2, 0, nullptr},
+    {Integrator::adams, integrator_words[1], "Adams with three accelerations", 0.966, 2, adams_weights},
+    {Integrator::adams2, integrator_words[2], "Adams with two accelerations; never stable, for study", 0, 1,
+     adams2_weights},
+    {Integrator::adams2_new_velocity, integrator_words[3], "the same, places with the new velocity; damps high modes",
      1.414, 1, adams2_new_velocity_weights},
 }};
+static_assert([] {
+  for (std::size_t k = 0; k < integrators.size(); ++k) {
+    if (integrators[k].kind != static_cast<Integrator>(k)) return false;
+  }
+  return true;
+}());
 
 inline const IntegratorRule& rule_of(Integrator kind) { return integrators[static_cast<std::size_t>(kind)]; }
 

@@ -9,9 +9,6 @@ void advance_clock(State& state) {
   clock.last_step = clock.next_step;
   clock.time.add(clock.next_step);
   ++clock.step;
-  if (clock.step == 1) clock.smallest_step = clock.last_step;
-  clock.smallest_step = clock.last_step < clock.smallest_step ? clock.last_step : clock.smallest_step;
-  clock.largest_step = clock.last_step > clock.largest_step ? clock.last_step : clock.largest_step;
 }
 
 void move_nodes(const Model& model, State& state, Workspace& work) {

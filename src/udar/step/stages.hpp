@@ -20,7 +20,6 @@ void close_books(const Model& model, State& state, Workspace& work);
 
 // Only at the start.
 State rest_state(const Model& model);
-void refuse_unstable_step(const Model& model, const State& state);
 void open_books(const Model& model, State& state);
 
 /// Sum of the corner forces at a node in element order, N.

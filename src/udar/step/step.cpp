@@ -21,7 +21,6 @@ void prepare(const Model& model, State& state, Workspace& work) {
   add_contact_force(model, state);
   add_load_force(model, state);
   choose_time_step(model, state, work);
-  refuse_unstable_step(model, state);
   open_books(model, state);
   add_support_force(model, state, work);
   accelerate_nodes(model, state, work);
