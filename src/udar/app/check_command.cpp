@@ -1,10 +1,11 @@
-#include <fmt/core.h>
-
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 
 #include "udar/app/commands.hpp"
+#include "udar/app/terminal.hpp"
 #include "udar/case/reference.hpp"
 #include "udar/output/summarise.hpp"
 #include "udar/simulation/simulation.hpp"
@@ -16,11 +17,12 @@ namespace {
 
 using std::chrono::steady_clock;
 
-double seconds_since(steady_clock::time_point begin) {
-  return std::chrono::duration<double>(steady_clock::now() - begin).count();
+/// One row of the report; rows of one kind say so only once.
+void row(std::string_view label, std::string_view name, const std::string& text) {
+  say("  {:<11}{}{}{}\n", label, name, name.empty() ? "" : ": ", text);
 }
 
-/// Bytes of everything that a run keeps for all its steps.
+/// Bytes of everything that a run keeps for all its steps: the state, its last good copy, the model's large arrays.
 std::size_t memory_of(const Model& model, const State& state) {
   std::size_t bytes = 0;
   for_each_field(state, [&](const char*, const auto& field) {
@@ -30,41 +32,123 @@ std::size_t memory_of(const Model& model, const State& state) {
       bytes += sizeof field;
     }
   });
+  bytes *= 2;
   bytes += model.rest.size() * (2 * sizeof(Vec2) + 2 * sizeof(double) + 2 * sizeof(Index));
   bytes += model.corners.size() * (2 * sizeof(Vec2) + 3 * sizeof(Vec2) + 6 * sizeof(Index));
   return bytes;
 }
 
 void print_bodies(const Model& model) {
+  const char* label = "bodies";
   for (const Body& body : model.bodies) {
     const Elasticity c = std::visit([](const auto& law) { return law.elasticity(); }, body.law);
     const char* law = std::visit([](const auto& l) { return std::decay_t<decltype(l)>::keyword; }, body.law);
-    fmt::print(" body {}: {} elements, {} nodes, {:.6g} kg\n", body.name, body.element_end - body.element_begin,
-               body.node_end - body.node_begin, body.mass);
-    fmt::print("   {}, {:.6g} kg/m^3: pressure waves {:.6g} m/s, shear waves {:.6g} m/s\n", law, body.density,
-               std::sqrt(c.wave_modulus() / body.density), std::sqrt(c.shear_modulus / body.density));
+    row(label, body.name,
+        fmt::format("{:.6g} kg, {}, {}", body.mass, counted(body.element_end - body.element_begin, "element"),
+                    counted(body.node_end - body.node_begin, "node")));
+    row("", body.name,
+        fmt::format("{}, {:.6g} kg/m^3, pressure waves {:.6g} m/s, shear waves {:.6g} m/s", law, body.density,
+                    std::sqrt(c.wave_modulus() / body.density), std::sqrt(c.shear_modulus / body.density)));
+    label = "";
   }
+}
+
+std::string range_in_units(const std::vector<double>& values, std::string_view unit) {
+  const auto [least, most] = std::minmax_element(values.begin(), values.end());
+  const std::string text = in_units(*least, unit);
+  return *least == *most ? text : text + " to " + in_units(*most, unit);
 }
 
 void print_obstacles(const Model& model) {
+  const char* label = "obstacles";
   for (const Obstacle& obstacle : model.obstacles) {
-    const auto [softest, stiffest] =
-        std::minmax_element(obstacle.normal_stiffness.begin(), obstacle.normal_stiffness.end());
     const char* shape = std::visit([](const auto& s) { return std::decay_t<decltype(s)>::keyword; }, obstacle.shape);
-    fmt::print(" obstacle {}: {}, friction {:.3g}, springs {:.4g} to {:.4g} N/m at each of {} outer nodes\n",
-               obstacle.name, shape, obstacle.friction, *softest, *stiffest, model.contact_nodes.size());
+    std::string text = fmt::format("{}, friction {:.4g}, springs of {} at each of {}", shape, obstacle.friction,
+                                   range_in_units(obstacle.normal_stiffness, "N/m"),
+                                   counted(static_cast<long long>(model.contact_nodes.size()), "outer node"));
+    if (length(obstacle.velocity) > 0) {
+      text += fmt::format(", moves with ({:.4g}, {:.4g}) m/s", obstacle.velocity.x, obstacle.velocity.y);
+    }
+    row(label, obstacle.name, text);
+    label = "";
   }
 }
 
-/// Time of one step, from a few done on a copy.
-double step_seconds(const Model& model, State state, Workspace& work) {
-  const auto begin = steady_clock::now();
-  int steps = 0;
-  while (!finished(model, state) && steps < 2000 && (steps < 10 || seconds_since(begin) < 0.2)) {
-    step(model, state, work);
-    ++steps;
+void print_supports_and_loads(const Model& model) {
+  const char* label = "supports";
+  for (const Support& s : model.supports) {
+    const char* how = s.turns ? "turned" : s.holds_x && s.holds_y ? "x and y given" : s.holds_x ? "x given" : "y given";
+    row(label, s.name, fmt::format("{}, {}", counted(static_cast<long long>(s.nodes.size()), "node"), how));
+    label = "";
   }
-  return steps > 0 ? seconds_since(begin) / steps : 0;
+  label = "loads";
+  for (const Load& l : model.loads) {
+    row(label, l.name,
+        l.edges.empty() ? fmt::format("on {}", counted(static_cast<long long>(l.nodes.size()), "node"))
+                        : fmt::format("{} on {}", in_units(l.pressure, "Pa"),
+                                      counted(static_cast<long long>(l.edges.size()), "edge")));
+    label = "";
+  }
+}
+
+void print_observers(const Model& model) {
+  std::string names;
+  for (const auto& o : model.observed_nodes) names += ", " + o.name;
+  for (const auto& o : model.observed_elements) names += ", " + o.name;
+  for (const auto& o : model.observed_regions) names += ", " + o.name;
+  if (!names.empty()) row("observed", "", names.substr(2));
+  const OutputSettings& output = model.output;
+  std::string fields = "no fields";
+  if (output.fields_every > 0) fields = "fields every " + in_units(output.fields_every, "s");
+  if (!output.fields_at.empty()) {
+    fields = output.fields_every > 0 ? fields + " and at" : "fields at";
+    fields += " " + counted(static_cast<long long>(output.fields_at.size()), "given time");
+  }
+  row("written", "", fmt::format("histories every {}, {}", in_units(output.histories_every, "s"), fields));
+}
+
+void print_time_step(const Model& model, const Clock& clock) {
+  const IntegratorRule& rule = rule_of(model.run.integrator);
+  const std::string step =
+      fmt::format("{} {}", in_units(clock.next_step, "s"), model.run.time_step ? "fixed" : "automatic");
+  if (rule.stable_limit == 0) {
+    const double z = 2 * *model.run.time_step / clock.limit.size;
+    row("time step", "",
+        fmt::format("{}; {} is never stable: the stiffest vibration grows by {:.3g} % in each step", step, rule.keyword,
+                    100 * std::pow(z, 4) / 6));
+  } else {
+    row("time step", "",
+        fmt::format("{}; stable up to {}, limited by {}{}", step, in_units(clock.limit.size, "s"),
+                    element_name(model, clock.limit.element),
+                    clock.limit.by_contact != 0 ? " and its contact springs" : ""));
+  }
+}
+
+/// Seconds of one step, from a few done on a copy; none where the case fails so early.
+std::optional<double> step_seconds(const Model& model, State state, Workspace& work) {
+  const auto begin = steady_clock::now();
+  const auto spent = [&] { return std::chrono::duration<double>(steady_clock::now() - begin).count(); };
+  int steps = 0;
+  try {
+    while (!finished(model, state) && steps < 2000 && (steps < 10 || spent() < 0.2)) {
+      step(model, state, work);
+      ++steps;
+    }
+  } catch (const NumericalError&) {
+    return std::nullopt;
+  }
+  return steps > 0 ? spent() / steps : 0;
+}
+
+void print_cost(const Model& model, const State& state, Workspace& work) {
+  const double steps = std::ceil(model.run.end_time / state.clock.next_step * (1 - 1e-9));
+  row("steps", "", fmt::format("{:.0f}{}", steps, model.run.time_step ? "" : ", more as elements deform"));
+  row("memory", "", in_units(static_cast<double>(memory_of(model, state)), "B"));
+  const auto each = step_seconds(model, state, work);
+  const std::string threads = counted(work.pool.threads(), "thread");
+  row("time", "",
+      each ? fmt::format("about {:.2g} s with {}", steps * *each, threads)
+           : "unknown: the case fails in its first steps; `udar run` says why");
 }
 
 }  // namespace
@@ -72,41 +156,27 @@ double step_seconds(const Model& model, State state, Workspace& work) {
 ExitCode check_command(const RunArguments& arguments) {
   std::vector<Diagnostic> warnings;
   const Simulation simulation(load_case(arguments.case_file, arguments.assignments, &warnings));
-  for (const Diagnostic& w : warnings) fmt::print(stderr, "warning{}", to_text(w).substr(5));
   const Model& model = simulation.model();
   Workspace work(model, threads_for(model));
   const State state = start(model, work);
-  const Clock& clock = state.clock;
+  print_warnings(warnings);
 
-  fmt::print(" {}: to {:.6g} s with {}\n", std::filesystem::path(arguments.case_file).stem().string(),
-             model.run.end_time, rule_of(model.run.integrator).keyword);
+  say("{}\n", std::filesystem::path(arguments.case_file).stem().string());
+  row("run", "",
+      fmt::format("0 to {}, {}, gravity ({:.4g}, {:.4g}) m/s^2", in_units(model.run.end_time, "s"),
+                  rule_of(model.run.integrator).keyword, model.run.gravity.x, model.run.gravity.y));
   print_bodies(model);
   print_obstacles(model);
-  if (rule_of(model.run.integrator).stable_limit == 0) {
-    const double z = 2 * *model.run.time_step / clock.limit.size;
-    fmt::print(" step {:.4g} s; {} is never stable: the stiffest vibration grows by {:.3g} in each step\n",
-               clock.next_step, rule_of(model.run.integrator).keyword, std::pow(z, 4) / 6);
-  } else {
-    fmt::print(" step {:.4g} s ({}); stable up to {:.4g} s, set by {}{}\n", clock.next_step,
-               model.run.time_step ? "fixed" : "automatic", clock.limit.size, element_name(model, clock.limit.element),
-               clock.limit.by_contact != 0 ? " and its contact springs" : "");
-  }
-  const double steps = std::ceil(model.run.end_time / clock.next_step);
-  fmt::print(" {:.0f} steps{}, {:.3g} MB, about {:.3g} s with {} thread{}\n", steps,
-             model.run.time_step ? "" : " or more, as elements deform",
-             1e-6 * static_cast<double>(memory_of(model, state)), steps * step_seconds(model, state, work),
-             work.pool.threads(), work.pool.threads() == 1 ? "" : "s");
-  fmt::print(" {} error; ready to run\n", "no");
+  print_supports_and_loads(model);
+  print_observers(model);
+  print_time_step(model, state.clock);
+  print_cost(model, state, work);
+  say("0 errors, {}; nothing was run\n", counted(static_cast<long long>(warnings.size()), "warning"));
   return ExitCode::done;
 }
 
 ExitCode keys_command(const std::string& filter) {
-  const std::string text = keys_text(filter);
-  if (text.empty()) {
-    fmt::print(stderr, "error: no key has to do with `{}`\n  = `udar keys` lists all\n", filter);
-    return ExitCode::usage;
-  }
-  fmt::print("{}", text);
+  say_text(keys_text(filter));
   return ExitCode::done;
 }
 

@@ -1,10 +1,9 @@
-#include <fmt/core.h>
-
 #include <csignal>
 #include <filesystem>
 
 #include "udar/app/commands.hpp"
 #include "udar/app/status_line.hpp"
+#include "udar/app/terminal.hpp"
 #include "udar/results/file.hpp"
 #include "udar/results/run_folder.hpp"
 #include "udar/simulation/simulation.hpp"
@@ -21,45 +20,63 @@ extern "C" void note_signal(int signal) {
   std::signal(signal, SIG_DFL);  // a second one ends the program at once
 }
 
-/// runs/<case>, or the first of runs/<case>-2, -3, ... that is not there: a run never replaces another by itself.
-fs::path free_folder(const std::string& case_name) {
-  fs::path folder = fs::path("runs") / case_name;
-  for (int k = 2; fs::exists(folder); ++k) folder = fs::path("runs") / fmt::format("{}-{}", case_name, k);
+/// runs/<case>, or the first of runs/<case>-2, -3, ... that is not there: a run never replaces another unasked.
+fs::path folder_for(const RunArguments& arguments, const std::string& case_name) {
+  if (!arguments.output.empty()) return arguments.output;
+  const fs::path plain = fs::path("runs") / case_name;
+  fs::path folder = plain;
+  std::error_code error;
+  for (int k = 2; !arguments.force && fs::exists(folder, error); ++k) {
+    folder = plain;
+    folder += fmt::format("-{}", k);
+  }
   return folder;
 }
 
-void print_warnings(const std::vector<Diagnostic>& warnings) {
-  for (const Diagnostic& w : warnings) fmt::print(stderr, "warning{}", to_text(w).substr(5));
-}
-
-std::string seconds_text(double seconds) {
-  return seconds == seconds ? fmt::format("{:.4g} ms", 1e3 * seconds) : std::string("-");
+/// The command line that repeats the run.
+std::string command_text(const RunArguments& arguments) {
+  std::string text = "udar run " + arguments.case_file;
+  for (const std::string& assignment : arguments.assignments) text += " --set '" + assignment + "'";
+  return text;
 }
 
 void print_contacts(const Summary& summary) {
-  for (const auto& [name, contact] : summary.contacts) {
-    if (contact.episodes.empty()) {
-      fmt::print(" {}: never touched\n", name);
+  if (summary.contacts.empty()) return;
+  say("\n{:<16}{:>11}{:>11}{:>11}{:>15}{:>12}{:>13}\n", "contact", "touch", "left", "duration", "99 % of push",
+      "peak force", "restitution");
+  for (const auto& [name, c] : summary.contacts) {
+    if (c.episodes.empty()) {
+      say("{:<16}{:>11}\n", name, "none");
       continue;
     }
-    fmt::print(" {}: touched at {}, left at {}, lasted {} (99 % of the impulse in {}), peak {:.4g} kN\n", name,
-               seconds_text(contact.first_touch), seconds_text(contact.last_separation), seconds_text(contact.duration),
-               seconds_text(contact.duration_99), 1e-3 * contact.peak_force);
+    const double restitution = c.episodes.back().restitution;
+    say("{:<16}{:>11}{:>11}{:>11}{:>15}{:>12}{:>13}{}\n", name, in_units(c.first_touch, "s"),
+        c.last_separation == c.last_separation ? in_units(c.last_separation, "s") : "still on",
+        in_units(c.duration, "s"), in_units(c.duration_99, "s"), in_units(c.peak_force, "N"),
+        c.episodes.size() == 1 && restitution == restitution ? fmt::format("{:.3f}", restitution) : "-",
+        c.episodes.size() > 1 ? fmt::format("  in {} episodes", c.episodes.size()) : "");
   }
 }
 
 void print_result(const Summary& s, const fs::path& folder) {
-  fmt::print(" {} elements x {} steps in {:.3g} s: {:.3g} million element-steps per second, {} thread{}\n", s.elements,
-             s.steps, s.wall_seconds, 1e-6 * s.element_steps_per_second, s.threads, s.threads == 1 ? "" : "s");
   print_contacts(s);
-  fmt::print(" verdict: {}   energy {:.2g} %   momentum {:.1g}   penetration {:.2g} % of an element\n", s.verdict,
-             100 * s.energy_error, s.momentum_error, 100 * s.penetration_ratio);
-  for (const std::string& reason : s.reasons) fmt::print("   {}\n", reason);
-  fmt::print(" results in {}\n", folder.string());
-  fmt::print("   summary.json  histories/*.csv  setup.svg  final.svg (open in a browser)\n");
-  if (fs::exists(folder / RunFolder::fields_index)) {
-    fmt::print("   fields.pvd: open in ParaView, press Apply, then play\n");
-  }
+  say("\n{} elements x {} in {}: {} element-steps/s, {}\n", s.elements, counted(s.steps, "step"),
+      in_units(s.wall_seconds, "s"), in_units(s.element_steps_per_second, ""), counted(s.threads, "thread"));
+  say("verdict: {}   energy {:.2g} %   momentum {:.1g}   penetration {:.2g} % of element   -> {}\n", s.verdict,
+      100 * s.energy_error, s.momentum_error, 100 * s.penetration_ratio, folder.string());
+  const bool told_as_error = s.stop_reason == "numerical" || s.stop_reason == "disk";
+  for (std::size_t k = told_as_error ? 1 : 0; k < s.reasons.size(); ++k) say("  {}\n", s.reasons[k]);
+  std::error_code error;
+  if (fs::exists(folder / RunFolder::final_picture, error)) say("  look at final.svg in a browser");
+  if (fs::exists(folder / RunFolder::fields_index, error)) say(", at fields.pvd in ParaView (Apply, then play)");
+  say("; numbers are in summary.json and histories/\n");
+}
+
+ExitCode exit_code_of(const Summary& s) {
+  if (s.stop_reason == "numerical") return ExitCode::numerical;
+  if (s.stop_reason == "disk") return ExitCode::output;
+  if (s.stop_reason != "interrupted") return ExitCode::done;
+  return caught_signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted;
 }
 
 }  // namespace
@@ -71,28 +88,36 @@ ExitCode run_command(const RunArguments& arguments) {
 
   RunOptions options;
   options.case_name = fs::path(arguments.case_file).stem().string();
-  options.folder = arguments.output.empty() ? free_folder(options.case_name) : fs::path(arguments.output);
+  options.folder = folder_for(arguments, options.case_name);
   options.force = arguments.force;
   options.threads = arguments.threads;
   constexpr std::size_t largest_case = 1 << 20;
   options.case_text = read_file(arguments.case_file, largest_case);
+  options.command = command_text(arguments);
   options.interrupted = [] { return caught_signal != 0; };
   std::signal(SIGINT, note_signal);
   std::signal(SIGTERM, note_signal);
 
   const Model& model = simulation.model();
-  fmt::print(" {}: {} elements, {} nodes, {}\n", options.case_name, model.element_count, model.node_count,
-             options.folder->string());
-  StatusLine status;
-  simulation.observe([&](const Model& m, const State& state) { status.update(m, state); });
+  bool announced = false;
+  StatusLine status(model.run.end_time);
+  simulation.observe([&](const Model& m, const State& state) {
+    if (!announced) {
+      say("{}: {}, {} -> {}\n", options.case_name, counted(m.element_count, "element"), counted(m.node_count, "node"),
+          options.folder->string());
+      flush_terminal();
+      announced = true;
+    }
+    status.update(m, state);
+  });
   const Summary summary = simulation.run(options);
   status.finish(model, simulation.state());
-  print_result(summary, *options.folder);
-  if (summary.stop_reason == "numerical") return ExitCode::numerical;
-  if (summary.stop_reason == "interrupted") {
-    return caught_signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted;
+  if (summary.stop_reason == "numerical" || summary.stop_reason == "disk") {
+    flush_terminal();
+    fmt::print(stderr, "error: {}\n", summary.reasons.front());
   }
-  return ExitCode::done;
+  print_result(summary, *options.folder);
+  return exit_code_of(summary);
 }
 
 }  // namespace udar

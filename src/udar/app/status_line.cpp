@@ -1,10 +1,11 @@
 #include "udar/app/status_line.hpp"
 
-#include <fmt/core.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
-#include <cstdio>
+#include <cmath>
 
+#include "udar/app/terminal.hpp"
 #include "udar/output/summarise.hpp"
 
 namespace udar {
@@ -13,47 +14,73 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-std::string minutes(double seconds) {
+std::string clock_text(double seconds) {
+  constexpr double longest = 100 * 3600;
+  if (!(seconds < longest)) return "> 99 h";
   const auto whole = static_cast<long long>(seconds + 0.5);
   if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
   return fmt::format("{:02}:{:02}", whole / 60, whole % 60);
 }
 
+/// Characters in a row of the terminal; a longer line would wrap and could not be rewritten.
+std::size_t terminal_width() {
+  winsize size{};
+  const bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return known ? size.ws_col : 80;
+}
+
 }  // namespace
 
-StatusLine::StatusLine() : terminal_(isatty(STDOUT_FILENO) == 1), begin_(steady_clock::now()) {
+StatusLine::StatusLine(double end_time)
+    : terminal_(isatty(STDOUT_FILENO) == 1), unit_(unit_for(end_time)), begin_(steady_clock::now()) {
   next_ = begin_ + (terminal_ ? milliseconds(200) : milliseconds(5000));
+}
+
+StatusLine::TimeUnit StatusLine::unit_for(double time) {
+  if (time >= 1) return {"s", 1};
+  if (time >= 1e-3) return {"ms", 1e3};
+  return time >= 1e-6 ? TimeUnit{"us", 1e6} : TimeUnit{"ns", 1e9};
 }
 
 void StatusLine::update(const Model& model, const State& state) {
   constexpr std::uint64_t look_every = 16;
   if (state.clock.step % look_every != 0 || steady_clock::now() < next_) return;
   next_ = steady_clock::now() + (terminal_ ? milliseconds(250) : milliseconds(10000));
-  print(model, state);
+  const double done = state.clock.time.value() / model.run.end_time;
+  const double spent = std::chrono::duration<double>(steady_clock::now() - begin_).count();
+  print(model, state, done > 0 ? clock_text(spent * (1 - done) / done) : "--:--");
 }
 
 void StatusLine::finish(const Model& model, const State& state) {
-  print(model, state);
-  if (terminal_) fmt::print("\n");
+  print(model, state, "00:00");
+  if (terminal_) say("\n");
 }
 
-void StatusLine::print(const Model& model, const State& state) {
-  if (!headed_) {
-    fmt::print("{:>8}  {:>9} {:>4} {:>6} {:>8}  {:<28} {:>10} {:>9}\n", "step", "t/ms", "%", "ETA", "dt/ns",
-               "limited by", "energy err", "contacts");
-    headed_ = true;
-  }
+void StatusLine::print(const Model& model, const State& state, const std::string& left) {
   const Clock& clock = state.clock;
-  const double done = clock.time.value() / model.run.end_time;
-  const double spent = std::chrono::duration<double>(steady_clock::now() - begin_).count();
+  if (!headed_) {
+    headed_ = true;
+    step_unit_ = unit_for(clock.next_step);
+    say("{:>9} {:>9} {:>4}  {:<6} {:>7}  {:<25} {:>10} {:>9}\n", "step", fmt::format("t/{}", unit_.name), "%", "ETA",
+        fmt::format("dt/{}", step_unit_.name), "limited by", "energy err", "contacts");
+  }
   std::uint64_t contacts = 0;
   for (const ObstacleBook& obstacle : state.obstacles) contacts += obstacle.touching;
-  fmt::print("{}{:>8}  {:>9.4f} {:>4.0f} {:>6} {:>8.1f}  {:<28} {:>8.4f} % {:>9}{}", terminal_ ? "\r" : "", clock.step,
-             1e3 * clock.time.value(), 100 * done, done > 0 ? minutes(spent * (1 - done) / done) : "--:--",
-             1e9 * clock.last_step,
-             element_name(model, clock.limit.element) + (clock.limit.by_contact != 0 ? " + contact" : ""),
-             100 * state.ledger.energy_error(), contacts, terminal_ ? "\x1b[K" : "\n");
-  std::fflush(stdout);
+  print_line(fmt::format("{:>9} {:>9.4f} {:>4.0f}  {:<6} {:>7.4g}  {:<25} {:>8.2g} % {:>9}", clock.step,
+                         unit_.per_second * clock.time.value(),
+                         std::floor(100 * clock.time.value() / model.run.end_time), left,
+                         step_unit_.per_second * clock.last_step,
+                         element_name(model, clock.limit.element) + (clock.limit.by_contact != 0 ? " + contact" : ""),
+                         100 * state.ledger.energy_error(), contacts));
+}
+
+void StatusLine::print_line(const std::string& line) {
+  if (terminal_) {
+    say("\r{}\x1b[K", line.substr(0, terminal_width() - 1));
+  } else {
+    say("{}\n", line);
+  }
+  flush_terminal();
 }
 
 }  // namespace udar

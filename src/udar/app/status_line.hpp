@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <string>
 
 #include "udar/model/model.hpp"
 #include "udar/model/state.hpp"
@@ -10,17 +11,26 @@ namespace udar {
 /// One line that tells how a run stands: rewritten in place on a terminal, a plain line now and then elsewhere.
 class StatusLine {
  public:
-  StatusLine();
+  explicit StatusLine(double end_time);
   /// To be called after every step; looks at the clock only now and then.
   void update(const Model& model, const State& state);
   /// The last line, for good.
   void finish(const Model& model, const State& state);
 
  private:
-  void print(const Model& model, const State& state);
+  /// The unit in which a time is told, and how many of it are a second.
+  struct TimeUnit {
+    const char* name;
+    double per_second;
+  };
+  static TimeUnit unit_for(double time);
+  void print(const Model& model, const State& state, const std::string& left);
+  void print_line(const std::string& line);
 
   bool terminal_;
   bool headed_ = false;
+  TimeUnit unit_;
+  TimeUnit step_unit_{};
   std::chrono::steady_clock::time_point begin_;
   std::chrono::steady_clock::time_point next_;
 };

@@ -34,21 +34,22 @@ struct StepLimit {
 };
 
 struct Clock {
-  CompensatedSum time;            ///< s, t_n
-  std::uint64_t step = 0;         ///< n
-  double last_step = 0;           ///< s, h_n; 0 at the start
-  double step_before = 0;         ///< s, h_{n-1}
-  double second_step_before = 0;  ///< s, h_{n-2}
-  double next_step = 0;           ///< s, h_{n+1}
-  double planned_step = 0;        ///< s, the last one chosen, before it was fitted to the end time
-  StepLimit limit;                ///< at t_n
-  double start_limit = 0;         ///< s, stable limit at t = 0
-  StepLimit tightest;             ///< smallest stable limit so far, and what set it
-  double tightest_time = 0;       ///< s
-  double smallest_step = 0;       ///< s
-  double largest_step = 0;        ///< s
-  std::uint64_t shortened = 0;    ///< steps in which a fixed step was above the stable limit
-  double first_shortened = 0;     ///< s
+  CompensatedSum time;             ///< s, t_n
+  std::uint64_t step = 0;          ///< n
+  double last_step = 0;            ///< s, h_n; 0 at the start
+  double step_before = 0;          ///< s, h_{n-1}
+  double second_step_before = 0;   ///< s, h_{n-2}
+  double next_step = 0;            ///< s, h_{n+1}
+  std::uint64_t next_is_last = 0;  ///< 1 where the next step ends on the end time
+  double planned_step = 0;         ///< s, the last one chosen, before it was fitted to the end time
+  StepLimit limit;                 ///< at t_n
+  double start_limit = 0;          ///< s, stable limit at t = 0
+  StepLimit tightest;              ///< smallest stable limit so far, and what set it
+  double tightest_time = 0;        ///< s
+  double smallest_step = 0;        ///< s
+  double largest_step = 0;         ///< s
+  std::uint64_t shortened = 0;     ///< steps in which a fixed step was above the stable limit
+  double first_shortened = 0;      ///< s
   std::uint64_t first_shortened_element = 0;
   double largest_excess = 0;  ///< largest step over stable limit
 };

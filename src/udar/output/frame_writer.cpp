@@ -124,6 +124,7 @@ std::vector<std::vector<Vec2>> obstacle_outlines(const Model& model, const State
     const Box view{bodies.low - moved, bodies.high - moved};
     for (const Polyline& line : outline(obstacle.prepared, view.grown(margin))) {
       all.push_back(line.size() == 2 ? strip(obstacle.prepared, line, 0.4 * margin) : line);
+      if (all.back().front() == all.back().back()) all.back().pop_back();
       for (Vec2& p : all.back()) p += moved;
     }
   }

@@ -37,7 +37,8 @@ Observer observe_support(const Model& model, std::size_t support);
 Observer observe_energy(const Model& model);
 Observer observe_momentum(const Model& model);
 
-/// Everything the model asks for, and what is always watched: bodies, obstacles, supports, energy, momentum.
+/// What is always watched, energy and momentum, bodies, obstacles, supports, and everything the model asks for. Of
+/// several with one name all but the first get a number: `beam`, `beam_2`.
 std::vector<Observer> make_observers(const Model& model);
 
 /// Elastic energy from the stresses themselves, s : C^-1 : s / 2 over the volume now, J.

@@ -1,7 +1,9 @@
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <set>
 
 #include "udar/output/observer.hpp"
 
@@ -20,10 +22,12 @@ struct Together {
   double spin = 0;      // kg m2/s, about the centre of mass
 };
 
-template <class Nodes>
-Together together(const Model& model, const State& state, const Nodes& nodes, double mass) {
+/// Of `count` nodes; number k is `node(k)`.
+template <class Node>
+Together together(const Model& model, const State& state, std::size_t count, const Node& node, double mass) {
   Together sum;
-  for (const Index i : nodes) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const Index i = node(k);
     const Vec2 x = place(state, i);
     const Vec2 p = model.mass[i] * velocity(state, i);
     sum.position += model.mass[i] * x;
@@ -47,6 +51,15 @@ void fill(const Together& sum, double mass, std::span<double> out) {
   const std::array values{sum.position.x, sum.position.y, v.x,     v.y, sum.acceleration.x, sum.acceleration.y,
                           sum.momentum.x, sum.momentum.y, sum.spin};
   std::copy(values.begin(), values.end(), out.begin());
+}
+
+/// A body and an obstacle may have one name, files and names of the summary may not: the later one gets a number.
+void tell_apart(std::vector<Observer>& observers) {
+  std::set<std::string> taken;
+  for (Observer& o : observers) {
+    const std::string given = o.name;
+    for (int k = 2; !taken.insert(o.name).second; ++k) o.name = fmt::format("{}_{}", given, k);
+  }
 }
 
 }  // namespace
@@ -109,16 +122,15 @@ Observer observe_element(const Model&, const ElementObserver& element) {
 
 Observer observe_region(const Model& model, const RegionObserver& region) {
   return {region.name, together_columns, region.window, [&model, &region](const State& state, std::span<double> out) {
-            fill(together(model, state, region.nodes, region.mass), region.mass, out);
+            const auto node = [&](std::size_t k) { return region.nodes[k]; };
+            fill(together(model, state, region.nodes.size(), node, region.mass), region.mass, out);
           }};
 }
 
 Observer observe_body(const Model& model, const Body& body) {
-  std::vector<Index> nodes(body.node_end - body.node_begin);
-  std::iota(nodes.begin(), nodes.end(), body.node_begin);
-  return {body.name, together_columns, always,
-          [&model, nodes = std::move(nodes), mass = body.mass](const State& state, std::span<double> out) {
-            fill(together(model, state, nodes, mass), mass, out);
+  return {body.name, together_columns, always, [&model, &body](const State& state, std::span<double> out) {
+            const auto node = [&](std::size_t k) { return body.node_begin + static_cast<Index>(k); };
+            fill(together(model, state, body.node_end - body.node_begin, node, body.mass), body.mass, out);
           }};
 }
 
@@ -156,15 +168,14 @@ Observer observe_support(const Model& model, std::size_t support) {
 }
 
 std::vector<Observer> make_observers(const Model& model) {
-  std::vector<Observer> all;
+  std::vector<Observer> all{observe_energy(model), observe_momentum(model)};
   for (const NodeObserver& node : model.observed_nodes) all.push_back(observe_node(model, node));
   for (const ElementObserver& element : model.observed_elements) all.push_back(observe_element(model, element));
   for (const RegionObserver& region : model.observed_regions) all.push_back(observe_region(model, region));
   for (const Body& body : model.bodies) all.push_back(observe_body(model, body));
   for (std::size_t o = 0; o < model.obstacles.size(); ++o) all.push_back(observe_obstacle(model, o));
   for (std::size_t s = 0; s < model.supports.size(); ++s) all.push_back(observe_support(model, s));
-  all.push_back(observe_energy(model));
-  all.push_back(observe_momentum(model));
+  tell_apart(all);
   return all;
 }
 

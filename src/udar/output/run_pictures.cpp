@@ -25,13 +25,13 @@ Picture bodies_and_obstacles(const Model& model, const State& state, const std::
   return picture;
 }
 
+}  // namespace
+
 Vec2 centroid(const Model& model, const State& state, Index element) {
   Vec2 sum;
   for (const Index c : model.corners[element]) sum += Vec2{state.nodes[c].x, state.nodes[c].y};
   return (1.0 / 3.0) * sum;
 }
-
-}  // namespace
 
 Picture setup_picture(const Model& model, const State& state, const std::string& title) {
   Picture picture = bodies_and_obstacles(model, state, title);

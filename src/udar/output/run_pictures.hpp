@@ -12,4 +12,7 @@ Picture setup_picture(const Model& model, const State& state, const std::string&
 /// flowed.
 Picture state_picture(const Model& model, const State& state, const std::string& title);
 
+/// Where an element is now, m.
+Vec2 centroid(const Model& model, const State& state, Index element);
+
 }  // namespace udar

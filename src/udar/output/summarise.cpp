@@ -2,6 +2,9 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "udar/output/observer.hpp"
 
 namespace udar {
@@ -40,12 +43,90 @@ MomentumSummary momentum_of(const State& state) {
   return s;
 }
 
-/// Scale of momentum for a relative error: of the start, or of what pushed where everything began at rest, N s.
-double momentum_scale(const Ledger& ledger) {
-  if (ledger.momentum_scale > 0) return ledger.momentum_scale;
+/// What a gap in the momentum books is compared with where the momentum of the start says nothing, kg m/s: the largest
+/// sum of m |v| that the energy of the run allows (all pushes may balance) and the impulses (all may be held).
+double momentum_at_stake(const Model& model, const State& state) {
+  double mass = 0;
+  for (const Body& body : model.bodies) mass += body.mass;
   double pushed = 0;
-  for (const ForceBook& book : ledger.books) pushed += length(book.impulse());
-  return pushed;
+  for (const ForceBook& book : state.ledger.books) pushed += length(book.impulse());
+  return std::sqrt(2 * mass * state.ledger.energy_scale()) + pushed;
+}
+
+/// The worst verdict so far and the reasons for it.
+struct Judgement {
+  enum Verdict { good, doubtful, bad };
+  Verdict verdict = good;
+  std::vector<std::string> reasons;
+
+  void at_most(Verdict limit) { verdict = std::max(verdict, limit); }
+  template <class... Values>
+  void because(Verdict limit, fmt::format_string<Values...> reason, Values&&... values) {
+    at_most(limit);
+    reasons.push_back(fmt::format(reason, std::forward<Values>(values)...));
+  }
+  [[nodiscard]] const char* word() const {
+    constexpr const char* words[] = {"good", "doubtful", "bad"};
+    return words[verdict];
+  }
+};
+
+void judge_stop(const Summary& s, Judgement& judgement) {
+  if (s.stop_reason == "numerical" || s.stop_reason == "disk") judgement.at_most(Judgement::bad);
+  if (s.stop_reason == "interrupted") judgement.at_most(Judgement::doubtful);
+}
+
+// Comparisons so that a number that is none is bad.
+void judge_books(const Model& model, const State& state, const Summary& s, Judgement& judgement) {
+  if (!(s.energy_error <= 0.001)) {
+    judgement.because(s.energy_error <= 0.01 ? Judgement::doubtful : Judgement::bad,
+                      "the energy books are {:.3g} % apart (good: 0.1 %)", 100 * s.energy_error);
+  }
+  constexpr double rounding = 1e-9;
+  if (!(state.ledger.momentum_gap <= rounding * momentum_at_stake(model, state))) {
+    judgement.because(Judgement::bad, "the momentum books are {:.3g} of the momentum apart", s.momentum_error);
+  }
+  if (model.run.integrator == Integrator::central_difference && !(s.identity_error <= rounding)) {
+    judgement.because(Judgement::bad, "work on the nodes and their kinetic energy are {:.3g} of the energy apart",
+                      s.identity_error);
+  }
+}
+
+void judge_contact(const Summary& s, Judgement& judgement) {
+  if (s.penetration_ratio <= 0.05) return;
+  judgement.because(Judgement::doubtful,
+                    "nodes sank into an obstacle by up to {:.3g} % of an element; make its `stiffness` larger or "
+                    "\"auto\"",
+                    100 * s.penetration_ratio);
+}
+
+void judge_steps(const Model& model, const State& state, const Summary& s, Judgement& judgement) {
+  const Clock& clock = state.clock;
+  if (clock.shortened > 0 && model.run.when_unstable == WhenUnstable::shorten) {
+    judgement.because(Judgement::good,
+                      "the fixed step was above the stable limit and was shortened in {} steps, first at t = {:.4g} s "
+                      "by {}",
+                      clock.shortened, s.time_step.first_shortened, s.time_step.first_shortened_by);
+  }
+  const bool continues = model.run.time_step && model.run.when_unstable == WhenUnstable::carry_on;
+  if (continues && clock.shortened == 0) {
+    judgement.because(Judgement::doubtful, "when_unstable = \"continue\" lets the step be above the stable limit");
+  }
+  if (continues && clock.shortened > 0) {
+    judgement.because(Judgement::doubtful,
+                      "the fixed step was above the stable limit in {} steps, up to {:.3g} times, first at t = {:.4g} "
+                      "s by {}",
+                      clock.shortened, clock.largest_excess, s.time_step.first_shortened,
+                      s.time_step.first_shortened_by);
+  }
+  constexpr double crushed = 0.25;
+  if (clock.tightest.size < crushed * clock.start_limit) {
+    judgement.because(Judgement::good,
+                      "{} was crushed: its stable step fell to {:.3g} % of the first one at t = {:.4g} s; corners of "
+                      "obstacles are felt by nodes only",
+                      element_name(model, clock.tightest.element), 100 * clock.tightest.size / clock.start_limit,
+                      clock.tightest_time);
+  }
 }
 
 }  // namespace
@@ -62,7 +143,8 @@ Summary summarise(const Model& model, const State& state) {
   s.steps = static_cast<long long>(clock.step);
   s.end_time = clock.time.value();
   s.energy_error = state.ledger.energy_error();
-  const double scale = momentum_scale(state.ledger);
+  s.identity_error = state.ledger.identity_error();
+  const double scale = state.ledger.momentum_scale > 0 ? state.ledger.momentum_scale : momentum_at_stake(model, state);
   s.momentum_error = scale > 0 ? state.ledger.momentum_gap / scale : 0;
   s.penetration_ratio = state.largest_penetration;
   for (const Body& body : model.bodies) s.masses[body.name] = body.mass;
@@ -81,46 +163,13 @@ Summary summarise(const Model& model, const State& state) {
 }
 
 void judge(const Model& model, const State& state, Summary& s) {
-  enum Verdict { good, doubtful, bad };
-  static constexpr const char* words[] = {"good", "doubtful", "bad"};
-  Verdict verdict = s.reasons.empty() ? good : bad;
-  const auto because = [&](Verdict at_least, std::string reason) {
-    verdict = std::max(verdict, at_least);
-    s.reasons.push_back(std::move(reason));
-  };
-
-  const Clock& clock = state.clock;
-  if (!(s.energy_error <= 0.01)) {
-    because(bad, fmt::format("the energy books are {:.3g} % apart (good: 0.1 %)", 100 * s.energy_error));
-  } else if (s.energy_error > 0.001) {
-    because(doubtful, fmt::format("the energy books are {:.3g} % apart (good: 0.1 %)", 100 * s.energy_error));
-  }
-  if (s.momentum_error > 1e-9) {
-    because(bad, fmt::format("the momentum books are {:.3g} of the momentum apart", s.momentum_error));
-  }
-  if (s.penetration_ratio > 0.05) {
-    because(doubtful, fmt::format("nodes sank into an obstacle by up to {:.3g} % of an element; make its `stiffness` "
-                                  "larger or \"auto\"",
-                                  100 * s.penetration_ratio));
-  }
-  if (clock.shortened > 0 && model.run.when_unstable == WhenUnstable::shorten) {
-    because(good, fmt::format("the fixed step was above the stable limit and was shortened in {} steps, first at t = "
-                              "{:.4g} s by {}",
-                              clock.shortened, s.time_step.first_shortened, s.time_step.first_shortened_by));
-  }
-  if (clock.shortened > 0 && model.run.when_unstable == WhenUnstable::carry_on) {
-    because(doubtful, fmt::format("the fixed step was above the stable limit in {} steps, up to {:.3g} times, first at "
-                                  "t = {:.4g} s by {}",
-                                  clock.shortened, clock.largest_excess, s.time_step.first_shortened,
-                                  s.time_step.first_shortened_by));
-  }
-  if (clock.tightest.size < 0.25 * clock.start_limit) {
-    because(good, fmt::format("{} was crushed: its stable step fell to {:.3g} % of the first one at t = {:.4g} s; "
-                              "corners of obstacles are felt by nodes only",
-                              element_name(model, clock.tightest.element),
-                              100 * clock.tightest.size / clock.start_limit, clock.tightest_time));
-  }
-  s.verdict = words[verdict];
+  Judgement judgement{.reasons = std::move(s.reasons)};
+  judge_stop(s, judgement);
+  judge_books(model, state, s, judgement);
+  judge_contact(s, judgement);
+  judge_steps(model, state, s, judgement);
+  s.verdict = judgement.word();
+  s.reasons = std::move(judgement.reasons);
 }
 
 }  // namespace udar

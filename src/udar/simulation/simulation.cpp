@@ -13,12 +13,33 @@
 #include "udar/output/summarise.hpp"
 #include "udar/results/file.hpp"
 #include "udar/results/run_folder.hpp"
+#include "udar/simulation/last_good.hpp"
 #include "udar/step/step.hpp"
 
 namespace udar {
-namespace {
 
-using Seconds = std::chrono::duration<double>;
+/// Why a run stopped, and what there is to say of it.
+struct Stop {
+  std::string reason = "end_time";
+  std::vector<std::string> why;
+
+  void because(const char* new_reason, const std::string& text) {
+    reason = new_reason;
+    if (why.empty() || why.back() != text) why.push_back(text);
+  }
+  /// Does something that writes. Where the disk refuses, the run has stopped by that, and the rest may still be
+  /// written.
+  template <class Write>
+  void save(Write&& write) {
+    try {
+      write();
+    } catch (const OutputError& error) {
+      because("disk", error.what());
+    }
+  }
+};
+
+namespace {
 
 /// Everything that is written while a case runs.
 class Recorders {
@@ -33,9 +54,9 @@ class Recorders {
     contacts_.record(state);
     if (frames_) frames_->record(state);
   }
-  void close(const State& state) {
-    histories_.close(state);
-    if (frames_) frames_->close(state);
+  void close(const State& state, Stop& stop) {
+    stop.save([&] { histories_.close(state); });
+    if (frames_) stop.save([&] { frames_->close(state); });
   }
   void summarise(Summary& summary) const {
     summary.histories = histories_.summary();
@@ -48,23 +69,42 @@ class Recorders {
   std::optional<FrameWriter> frames_;
 };
 
-void write_inputs(const RunFolder& folder, const Case& input, const RunOptions& options) {
-  const std::string resolved = to_toml(input);
-  write_file(folder / RunFolder::given_case, options.case_text.empty() ? resolved : options.case_text);
-  write_file(folder / RunFolder::resolved_case, resolved);
-  write_file(folder / RunFolder::version, version_text() + "\n");
+std::string log_head(const Model& model, const RunOptions& options) {
+  return fmt::format("{}\n{}case {}: {} elements, {} nodes\n", version_text(),
+                     options.command.empty() ? "" : options.command + "\n", options.case_name, model.element_count,
+                     model.node_count);
 }
 
-std::string log_text(const Summary& s) {
-  std::string text = fmt::format("{}\ncase {}: {} elements, {} nodes, {} threads\n", s.version, s.case_name, s.elements,
-                                 s.nodes, s.threads);
-  text += fmt::format("{} steps to t = {:.6g} s in {:.3g} s: {:.4g} million element-steps per second\n", s.steps,
-                      s.end_time, s.wall_seconds, 1e-6 * s.element_steps_per_second);
+std::string log_end(const Summary& s) {
+  std::string text = fmt::format("{} steps to t = {:.6g} s\n", s.steps, s.end_time);
+  text += fmt::format("threads: {}, wall time: {:.3g} s, million element-steps per second: {:.4g}\n", s.threads,
+                      s.wall_seconds, 1e-6 * s.element_steps_per_second);
   text += fmt::format("step {:.4g} to {:.4g} s, tightest by {} at t = {:.4g} s\n", s.time_step.min, s.time_step.max,
                       s.time_step.limited_by, s.time_step.time_of_min);
   text += fmt::format("stopped by: {}\nverdict: {}\n", s.stop_reason, s.verdict);
   for (const std::string& reason : s.reasons) text += "  " + reason + "\n";
   return text;
+}
+
+RunFolder open_folder(const Case& input, const Model& model, const State& state, const RunOptions& options) {
+  RunFolder folder = create_run_folder(*options.folder, options.force);
+  const std::string resolved = to_toml(input);
+  write_file(folder / RunFolder::given_case, options.case_text.empty() ? resolved : options.case_text);
+  write_file(folder / RunFolder::resolved_case, resolved);
+  write_file(folder / RunFolder::version, version_text() + "\n");
+  write_file(folder / RunFolder::log, log_head(model, options));
+  write_file(folder / RunFolder::setup_picture, to_svg(setup_picture(model, state, options.case_name)));
+  return folder;
+}
+
+/// The state at the end; after a numerical failure with the element that limited the step, most often the culprit.
+std::string final_picture(const Model& model, const State& state, const RunOptions& options, const Stop& stop) {
+  Picture picture = state_picture(model, state, options.case_name);
+  if (stop.reason == "numerical") {
+    const Index element = state.clock.limit.element;
+    picture.markers.push_back({centroid(model, state, element), "limits the step: " + element_name(model, element)});
+  }
+  return to_svg(picture);
 }
 
 }  // namespace
@@ -90,59 +130,62 @@ void Simulation::observe(std::function<void(const Model&, const State&)> watch) 
   watchers_.push_back(std::move(watch));
 }
 
+void Simulation::compute(const RunOptions& options, Workspace& work, const std::function<void()>& look, Stop& stop) {
+  LastGood last_good;
+  look();
+  while (!finished(model_, state_)) {
+    if (options.interrupted && options.interrupted()) {
+      return stop.because("interrupted", "the run was interrupted before its end time");
+    }
+    last_good.keep(state_);
+    try {
+      step(model_, state_, work);
+    } catch (const NumericalError& failure) {
+      state_ = last_good.before(state_.clock.step, model_, work);
+      return stop.because("numerical", failure.what());
+    }
+    look();
+  }
+}
+
 Summary Simulation::run(const RunOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   Workspace work(model_, options.threads > 0 ? options.threads : threads_for(model_));
   state_ = start(model_, work);
-
   std::optional<RunFolder> folder;
-  if (options.folder) {
-    folder = create_run_folder(*options.folder, options.force);
-    write_inputs(*folder, case_, options);
-    write_file(*folder / RunFolder::setup_picture, to_svg(setup_picture(model_, state_, options.case_name)));
-  }
+  if (options.folder) folder = open_folder(case_, model_, state_, options);
   Recorders recorders(model_, folder);
   const auto look = [&] {
     recorders.record(state_);
     for (const auto& watch : watchers_) watch(model_, state_);
   };
 
-  std::string stop_reason = "end_time";
-  std::vector<std::string> reasons;
-  try {
-    look();
-    while (!finished(model_, state_)) {
-      step(model_, state_, work);
-      look();
-      if (options.interrupted && options.interrupted()) {
-        stop_reason = "interrupted";
-        reasons.push_back("the run was interrupted before its end time");
-        break;
-      }
-    }
-  } catch (const NumericalError& failure) {
-    stop_reason = "numerical";
-    reasons.emplace_back(failure.what());
-  }
-  recorders.close(state_);
-
-  Summary summary = summarise(model_, state_);
-  summary.version = version_text();
-  summary.case_name = options.case_name;
-  summary.threads = work.pool.threads();
-  summary.stop_reason = stop_reason;
-  summary.reasons = reasons;
-  recorders.summarise(summary);
-  judge(model_, state_, summary);
-  summary.wall_seconds = Seconds(std::chrono::steady_clock::now() - begin).count();
-  summary.element_steps_per_second =
-      static_cast<double>(summary.elements) * static_cast<double>(summary.steps) / summary.wall_seconds;
+  Stop stop;
+  stop.save([&] { compute(options, work, look, stop); });
+  recorders.close(state_, stop);
   if (folder) {
-    write_file(*folder / RunFolder::final_picture, to_svg(state_picture(model_, state_, options.case_name)));
-    write_file(*folder / RunFolder::log, log_text(summary));
-    write_summary(*folder / RunFolder::summary, summary);
+    stop.save([&] { write_file(*folder / RunFolder::final_picture, final_picture(model_, state_, options, stop)); });
   }
-  return summary;
+
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const auto conclude = [&] {
+    Summary s = summarise(model_, state_);
+    s.version = version_text();
+    s.case_name = options.case_name;
+    s.threads = work.pool.threads();
+    s.wall_seconds = seconds;
+    s.element_steps_per_second = static_cast<double>(s.elements) * static_cast<double>(s.steps) / seconds;
+    s.stop_reason = stop.reason;
+    s.reasons = stop.why;
+    recorders.summarise(s);
+    judge(model_, state_, s);
+    return s;
+  };
+  if (folder) {
+    stop.save([&] { write_file(*folder / RunFolder::log, log_head(model_, options) + log_end(conclude())); });
+    stop.save([&] { write_summary(*folder / RunFolder::summary, conclude()); });
+  }
+  return conclude();
 }
 
 }  // namespace udar

@@ -1,9 +1,7 @@
 #pragma once
 
-#include <atomic>
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,8 +21,12 @@ struct RunOptions {
   int threads = 0;                              ///< 0: chosen by the size of the case
   std::string case_name = "case";               ///< for titles and the summary
   std::string case_text;                        ///< the case file as given, kept in the run folder
-  std::function<bool()> interrupted;            ///< asked after every step; true: stop with everything saved
+  std::string command;                          ///< how the run was asked for, for the log
+  std::function<bool()> interrupted;            ///< asked before every step; true: stop with everything saved
 };
+
+/// Why a run stopped.
+struct Stop;
 
 /// A case and its run:
 ///
@@ -38,17 +40,20 @@ class Simulation {
   /// Calls `watch` at t_0 and after every step of `run`.
   void observe(std::function<void(const Model&, const State&)> watch);
 
-  /// Runs to the end time, or to where it cannot go on: then the summary says why (stop_reason, reasons) and everything
-  /// up to there is saved. Throws UserError where the case cannot start or the folder is taken, OutputError where the
-  /// disk refuses. May be called once.
+  /// Runs to the end time, or to where it cannot go on: then the summary says why (stop_reason, reasons), and
+  /// everything up to the last good step is saved as far as the disk takes it. Throws UserError where the case cannot
+  /// start or the folder is taken, OutputError where the folder cannot be made; then nothing was computed.
   Summary run(const RunOptions& options = {});
 
   [[nodiscard]] const Case& input() const { return case_; }
   [[nodiscard]] const Model& model() const { return model_; }
-  /// After `run`: the state it ended with.
+  /// After `run`: the state it ended with; after a numerical failure the last good one.
   [[nodiscard]] const State& state() const { return state_; }
 
  private:
+  /// All steps, with a look at t_0 and after each.
+  void compute(const RunOptions& options, Workspace& work, const std::function<void()>& look, Stop& stop);
+
   Case case_;
   Model model_;
   State state_;

@@ -131,6 +131,7 @@ void choose_time_step(const Model& model, State& state, Workspace& work) {
   clock.smallest_step = clock.step == 0 ? step : std::min(clock.smallest_step, step);
   clock.largest_step = std::max(clock.largest_step, step);
   clock.next_step = fitted_to_end(model, step, left);
+  clock.next_is_last = clock.next_step == left ? 1 : 0;
 }
 
 }  // namespace udar

@@ -198,10 +198,9 @@ void close_books(const Model& model, State& state, Workspace& work) {
       std::max(ledger.identity_gap, std::fabs(ledger.half_step_kinetic - ledger.start_kinetic - node_work));
   ledger.momentum_gap = std::max(ledger.momentum_gap, length(ledger.momentum - ledger.start_momentum - impulses));
 
-  // Where everything starts from rest there is hardly any energy to compare with in the very first steps.
+  // In the very first steps there may be hardly any energy to compare with: the end of the run judges them.
   constexpr std::uint64_t first_judged = 100;
-  const bool enough = state.clock.step >= first_judged || ledger.start_energy > 0;
-  const bool judged = enough && model.run.when_unstable != WhenUnstable::carry_on;
+  const bool judged = state.clock.step >= first_judged && model.run.when_unstable != WhenUnstable::carry_on;
   if (judged && ledger.energy_error() > model.run.stop_at_energy_error) fail_energy(model, state);
 }
 

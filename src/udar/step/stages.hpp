@@ -8,7 +8,7 @@ namespace udar {
 /// The stages of a step, in the order in which they run; each stands in the file of its name. docs/the-step.md says
 /// what each reads and writes.
 
-void advance_clock(State& state);
+void advance_clock(const Model& model, State& state);
 void move_nodes(const Model& model, State& state, Workspace& work);
 void deform_elements(const Model& model, State& state, Workspace& work);
 void add_contact_force(const Model& model, State& state);

@@ -5,7 +5,7 @@
 namespace udar {
 
 void step(const Model& model, State& state, Workspace& work) {
-  advance_clock(state);                   // t_{n+1}, with the step chosen at the end of the last one
+  advance_clock(model, state);            // t_{n+1}, with the step chosen at the end of the last one
   move_nodes(model, state, work);         // x_{n+1}
   deform_elements(model, state, work);    // strain and turn, stress, corner forces
   add_contact_force(model, state);        // springs and friction at x_{n+1}

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <fmt/core.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "udar/base/error.hpp"
+
+namespace udar {
+
+/// Writes to the standard output. What it refuses (a full disk, a closed pipe) never stops a run; `flush_terminal`
+/// tells of it.
+void say_text(std::string_view text);
+
+template <class... Values>
+void say(fmt::format_string<Values...> format, Values&&... values) {
+  say_text(fmt::format(format, std::forward<Values>(values)...));
+}
+
+/// The first error number of the standard output; 0: everything was written.
+int flush_terminal();
+
+/// To the standard error, as mistakes are told.
+void print_warnings(const std::vector<Diagnostic>& warnings);
+
+/// A number with four digits and the prefix that suits it: "264 ns", "1.567 MN"; "-" where there is none.
+std::string in_units(double value, std::string_view unit);
+
+/// "1 thread", "2 threads".
+std::string counted(long long count, std::string_view what);
+
+}  // namespace udar

@@ -1,0 +1,233 @@
+#include "udar/output/frame_writer.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "tests/output/watched_run.hpp"
+#include "tests/results/scratch.hpp"
+#include "tests/simulation/example.hpp"
+#include "udar/output/observer.hpp"
+
+namespace udar {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Runs a case with frames into `folder`; returns the times of all steps.
+std::vector<double> run_with_frames(WatchedRun& run, const fs::path& folder) {
+  FrameWriter frames(run.model, create_run_folder(folder, false));
+  std::vector<double> times;
+  run.run([&] {
+    times.push_back(run.time());
+    frames.record(run.state);
+  });
+  frames.close(run.state);
+  return times;
+}
+
+/// Times of the frames of the bodies.
+std::vector<double> frame_times(const fs::path& folder) {
+  std::vector<double> times;
+  for (const PvdEntry& entry : read_pvd(folder / RunFolder::fields_index)) {
+    if (entry.part == 0) times.push_back(entry.time);
+  }
+  return times;
+}
+
+template <class Value>
+const std::vector<Value>& values_of(const std::vector<VtuArray>& fields, std::string_view name) {
+  const auto found = std::ranges::find(fields, name, &VtuArray::name);
+  REQUIRE_MESSAGE(found != fields.end(), name);
+  return std::get<std::vector<Value>>(found->values);
+}
+
+double first_from(const std::vector<double>& times, double due) { return *std::ranges::lower_bound(times, due); }
+
+}  // namespace
+
+TEST_CASE("frames at the multiples of the interval, from 0 to the end") {
+  const Scratch folder;
+  Case input = falling_block();
+  input.output.fields_every = 20e-6;
+  WatchedRun run(input);
+  const auto times = run_with_frames(run, folder / "run");
+  const std::vector<double> expected{0, first_from(times, 20e-6), first_from(times, 40e-6), run.time()};
+  CHECK(frame_times(folder / "run") == expected);
+}
+
+TEST_CASE("frames at given times, also at 0 and at the end, in any order, each once") {
+  const Scratch folder;
+  Case input = falling_block();
+  input.output.fields_at = {60e-6, 0, 12e-6, 12e-6};
+  WatchedRun run(input);
+  const auto times = run_with_frames(run, folder / "run");
+  CHECK(frame_times(folder / "run") == std::vector<double>{0, first_from(times, 12e-6), run.time()});
+}
+
+TEST_CASE("a given time between steps takes the first step after it, a time of a step that step") {
+  const Scratch folder;
+  Case input = falling_block();
+  input.run.time_step = 0.1e-6;
+  input.output.fields_at = {0.3e-6, 0.7e-6, 1.25e-6};
+  WatchedRun run(input);
+  run_with_frames(run, folder / "run");
+  const auto times = frame_times(folder / "run");
+  REQUIRE(times.size() == 4);
+  CHECK(times[0] == doctest::Approx(0.3e-6));
+  CHECK(times[1] == doctest::Approx(0.7e-6));
+  CHECK(times[2] == doctest::Approx(1.3e-6));
+}
+
+TEST_CASE("no frames where none are asked for") {
+  const Scratch folder;
+  WatchedRun run(falling_block());
+  run_with_frames(run, folder / "run");
+  CHECK_FALSE(fs::exists(folder / "run" / RunFolder::fields_index));
+  CHECK(fs::is_empty(folder / "run" / RunFolder::fields));
+}
+
+TEST_CASE("at every moment the index names only files that are there and whole") {
+  const Scratch folder;
+  Case input = falling_block();
+  input.output.fields_every = 10e-6;
+  WatchedRun run(input);
+  FrameWriter frames(run.model, create_run_folder(folder / "run", false));
+  int seen = 0;
+  run.run([&] {
+    frames.record(run.state);
+    if (frames.frames() == seen) return;
+    seen = frames.frames();
+    const auto index = read_pvd(folder / "run" / RunFolder::fields_index);
+    CHECK(index.size() == 2 * static_cast<std::size_t>(seen));
+    for (const PvdEntry& entry : index) CHECK(read_vtu(folder / "run" / entry.file).time == entry.time);
+  });
+  CHECK(seen == 7);
+}
+
+TEST_CASE("a frame that cannot be written is not in the index") {
+  const Scratch folder;
+  Case input = falling_block();
+  input.output.fields_every = 20e-6;
+  WatchedRun run(input);
+  const fs::path results = folder / "run";
+  FrameWriter frames(run.model, create_run_folder(results, false));
+  frames.record(run.state);
+  fs::remove_all(results / RunFolder::fields);
+  CHECK_THROWS_AS(frames.close((step(run.model, run.state, run.work), run.state)), OutputError);
+  CHECK(read_pvd(results / RunFolder::fields_index).size() == 2);
+}
+
+TEST_CASE("a frame reads back as the state, within a float") {
+  const Scratch folder;
+  Case input = falling_block();
+  input.output.fields_at = {10e-6};
+  input.run.end_time = 10e-6;
+  WatchedRun run(input);
+  run_with_frames(run, folder / "run");
+  const Model& model = run.model;
+  const State& state = run.state;
+  const VtuGrid grid = read_vtu(folder / "run" / RunFolder::frame_name("bodies", 0));
+  REQUIRE(grid.points.size() == model.node_count);
+  REQUIRE(grid.kinds.size() == model.element_count);
+  CHECK(grid.time == run.time());
+
+  const auto& displacement = values_of<float>(grid.point_fields, "displacement_m");
+  const auto& speed = values_of<float>(grid.point_fields, "velocity_m_per_s");
+  const auto& acceleration = values_of<float>(grid.point_fields, "acceleration_m_per_s2");
+  const auto& force = values_of<float>(grid.point_fields, "contact_force_N");
+  const auto& number = values_of<std::int32_t>(grid.point_fields, "node_number");
+  Vec2 pushed;
+  for (Index i = 0; i < model.node_count; ++i) {
+    CAPTURE(i);
+    CHECK(length(grid.points[i] - Vec2{state.nodes[i].x, state.nodes[i].y}) <= 1e-8);
+    const Vec2 u = Vec2{state.nodes[i].x, state.nodes[i].y} - model.rest[i];
+    CHECK(displacement[3 * i + 1] == static_cast<float>(u.y));
+    CHECK(speed[3 * i] == static_cast<float>(velocity(state, i).x));
+    CHECK(acceleration[3 * i + 1] == static_cast<float>(state.acceleration[i].y));
+    CHECK(number[i] == static_cast<std::int32_t>(model.node_numbers[i]));
+    pushed += {force[3 * i], force[3 * i + 1]};
+  }
+  REQUIRE(state.obstacles[0].touching > 0);
+  CHECK(pushed.y == doctest::Approx(state.obstacles[0].total.force.y).epsilon(1e-6));
+  CHECK(pushed.x == doctest::Approx(state.obstacles[0].total.force.x).epsilon(1e-6));
+
+  const auto& stress = values_of<float>(grid.cell_fields, "stress_y_Pa");
+  const auto& largest = values_of<float>(grid.cell_fields, "principal_1_Pa");
+  const auto& strain = values_of<float>(grid.cell_fields, "plastic_strain");
+  const auto& flows = values_of<std::uint8_t>(grid.cell_fields, "flows_now");
+  const auto& element_number = values_of<std::int32_t>(grid.cell_fields, "element_number");
+  bool one_flows = false;
+  for (Index e = 0; e < model.element_count; ++e) {
+    CAPTURE(e);
+    CHECK(stress[e] == static_cast<float>(state.stress_yy[e]));
+    CHECK(largest[e] == static_cast<float>(principal_stresses(state, e)[0]));
+    CHECK(strain[e] == static_cast<float>(state.plastic_strain[e]));
+    CHECK(flows[e] == (state.plastic_power[e] > 0 ? 1 : 0));
+    CHECK(element_number[e] == static_cast<std::int32_t>(model.element_numbers[e]));
+    for (std::size_t c = 0; c < 3; ++c) {
+      CHECK(grid.corners[3 * e + c] == static_cast<std::int32_t>(model.corners[e][c]));
+    }
+    one_flows = one_flows || flows[e] != 0;
+  }
+  CHECK(one_flows);
+}
+
+TEST_CASE("each of several bodies has its number, and elements come without padding") {
+  const Scratch folder;
+  Case input = falling_block();
+  input.output.fields_at = {0};
+  input.bodies.push_back(input.bodies[0]);
+  input.bodies[1].name = "other";
+  std::get<RectangleMesh>(input.bodies[1].mesh) = {.size = {0.01, 0.01}, .at = {0.1, 0}, .element_size = 0.01};
+  WatchedRun run(input);
+  const VtuGrid grid = body_grid(run.model, run.state);
+  const auto& body = values_of<std::int32_t>(grid.cell_fields, "body");
+  CHECK(body.size() == 64 + 2);
+  CHECK(std::ranges::count(body, 1) == 2);
+  CHECK(std::ranges::count(values_of<std::int32_t>(grid.point_fields, "body"), 1) == 4);
+}
+
+TEST_CASE("obstacles are drawn where they stand, moving ones too") {
+  Case input = falling_block();
+  input.run.end_time = 10e-6;
+  input.obstacles = {
+      {.name = "fixed", .shape = Polygon{{{-0.01, -0.02}, {0.01, -0.02}, {0, -0.01}}}},
+      {.name = "moves", .shape = Rectangle{.at = {0.03, 0}, .size = {0.01, 0.01}}, .velocity = {-100, 20}}};
+  WatchedRun run(input);
+  run.run([] {});
+  const VtuGrid grid = obstacle_grid(run.model, run.state);
+  REQUIRE(grid.ends.size() == 2);
+  CHECK(grid.ends[0] == 3);
+  CHECK(grid.ends[1] == 7);
+  CHECK(grid.kinds == std::vector<std::uint8_t>(2, static_cast<std::uint8_t>(VtuCell::polygon)));
+  Box box;
+  for (std::size_t k = 3; k < 7; ++k) box.include(grid.points[k]);
+  CHECK(box.low.x == doctest::Approx(0.03 - 1e-3).epsilon(1e-12));
+  CHECK(box.low.y == doctest::Approx(2e-4).epsilon(1e-12));
+  CHECK(box.high.x == doctest::Approx(0.04 - 1e-3).epsilon(1e-12));
+}
+
+TEST_CASE("of an endless obstacle a strip is drawn, on its own side") {
+  Case input = falling_block();
+  for (const Vec2 normal : {Vec2{0, 1}, Vec2{0, -1}, Vec2{1, 0}, Vec2{3, 4}}) {
+    CAPTURE(normal.x);
+    CAPTURE(normal.y);
+    input.obstacles[0].shape = HalfPlane{.point = {0, 0.01}, .normal = normal};
+    input.obstacles[0].stiffness = 1;
+    const WatchedRun run(input);
+    const auto outlines = obstacle_outlines(run.model, run.state);
+    REQUIRE(outlines.size() == 1);
+    REQUIRE(outlines[0].size() == 4);
+    double deepest = 0;
+    for (const Vec2 p : outlines[0]) {
+      const double height = dot(p - Vec2{0, 0.01}, normal) / length(normal);
+      CHECK(height <= 1e-12);
+      deepest = std::min(deepest, height);
+    }
+    CHECK(deepest < -1e-3);
+  }
+}
+
+}  // namespace udar

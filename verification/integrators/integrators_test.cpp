@@ -1,0 +1,268 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <complex>
+
+#include "problem.hpp"
+#include "udar/step/integrators.hpp"
+#include "udar/step/stages.hpp"
+
+namespace udar::verification {
+namespace {
+
+constexpr double omega = 100;    // 1/s
+constexpr double speed = -0.01;  // m/s, at the start
+constexpr double amplitude = 1e-4;
+using Complex = std::complex<double>;
+
+/// The oscillator, with the size of every step in the hands of the check: also steps that the program would refuse or
+/// come to slowly. The stages are those of the step, in its order; loads and supports there are none.
+struct Oscillator {
+  explicit Oscillator(Integrator kind, double step, double start_speed = speed)
+      : model(build_model(with(kind, start_speed))), work(model, 1), state(rest_state(model)) {
+    deform_elements(model, state, work);
+    add_contact_force(model, state);
+    choose_time_step(model, state, work);
+    state.clock.next_step = step;
+    open_books(model, state);
+    accelerate_nodes(model, state, work);
+    close_books(model, state, work);
+  }
+  static Case with(Integrator kind, double start_speed) {
+    Case c = load("integrators.toml");
+    c.run.integrator = kind;
+    c.bodies[0].velocity.y = start_speed;
+    return c;
+  }
+  /// One step; the next one will be `next` (s) long.
+  void step(double next) {
+    advance_clock(model, state);
+    move_nodes(model, state, work);
+    deform_elements(model, state, work);
+    add_contact_force(model, state);
+    choose_time_step(model, state, work);
+    state.clock.next_step = next;
+    accelerate_nodes(model, state, work);
+    close_books(model, state, work);
+  }
+  void step() { step(state.clock.last_step > 0 ? state.clock.last_step : state.clock.next_step); }
+  [[nodiscard]] double place() const { return state.nodes[0].y - model.rest[0].y; }
+
+  Model model;
+  Workspace work;
+  State state;
+};
+
+/// The roots of an integrator on the oscillator, z = omega h. A motion x_n = c L^n solves
+///   (L - 1)^2 + z^2 (B + (L - 1) C) = 0,  B = sum b_j L^-j,  C = sum c_j L^-j
+/// with b and c the weights of velocity and place over h and h (with the new velocity C is b itself: B + (L - 1) B).
+std::vector<Complex> roots(Integrator kind, double z) {
+  std::vector<double> polynomial;  // highest power first
+  const double z2 = z * z;
+  switch (kind) {
+    case Integrator::central_difference:
+      polynomial = {1, z2 - 2, 1};
+      break;
+    case Integrator::adams:  // times L^2
+      polynomial = {1, -2 + z2 * 19 / 24, 1 + z2 * (23.0 / 12 - 19.0 / 24 - 10.0 / 24),
+                    z2 * (-16.0 / 12 + 10.0 / 24 + 3.0 / 24), z2 * (5.0 / 12 - 3.0 / 24)};
+      break;
+    case Integrator::adams2:  // times L
+      polynomial = {1, -2 + z2 * 4 / 6, 1 + z2 * (3.0 / 2 - 4.0 / 6 - 1.0 / 6), z2 * (-1.0 / 2 + 1.0 / 6)};
+      break;
+    case Integrator::adams2_new_velocity:
+      polynomial = {1, -2 + z2 * 3 / 2, 1 - z2 / 2};
+      break;
+  }
+  // Durand and Kerner: all roots at once.
+  std::vector<Complex> found;
+  for (std::size_t i = 1; i < polynomial.size(); ++i) found.push_back(std::pow(Complex(0.4, 0.9), double(i)));
+  for (int round = 0; round < 2000; ++round) {
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      Complex value = 0, others = 1;
+      for (const double p : polynomial) value = value * found[i] + p;
+      for (std::size_t j = 0; j < found.size(); ++j) {
+        if (j != i) others *= found[i] - found[j];
+      }
+      found[i] -= value / others;
+    }
+  }
+  return found;
+}
+
+double largest_root(Integrator kind, double z) {
+  double largest = 0;
+  for (const Complex root : roots(kind, z)) largest = std::max(largest, std::abs(root));
+  return largest;
+}
+
+/// Modulus of the root near exp(i z): the physical one.
+double physical_root(Integrator kind, double z) {
+  const Complex exact = std::exp(Complex(0, z));
+  Complex nearest = 99;
+  for (const Complex root : roots(kind, z)) {
+    if (std::abs(root - exact) < std::abs(nearest - exact)) nearest = root;
+  }
+  return std::abs(nearest);
+}
+
+/// The z at which the largest root leaves the unit circle.
+double limit_by_roots(Integrator kind) {
+  double low = 0.5, high = 2.5;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (low + high);
+    (largest_root(kind, middle) > 1 + 1e-6 ? high : low) = middle;
+  }
+  return low;
+}
+
+/// Growth of the amplitude per step, from x_{n+2} = p x_{n+1} - q x_n fitted over the run: the modulus is sqrt(q).
+double measured_modulus(Integrator kind, double z) {
+  Oscillator o(kind, z / omega);
+  double a11 = 0, a12 = 0, a22 = 0, b1 = 0, b2 = 0;
+  double x0 = 0, x1 = 0;
+  for (int n = 0; n < 600; ++n) {
+    o.step();
+    const double x2 = o.place();
+    if (std::fabs(x2) > 8 * amplitude) break;  // it would soon leave its anvils
+    if (n > 100) {  // the other roots have died away
+      a11 += x1 * x1;
+      a12 -= x1 * x0;
+      a22 += x0 * x0;
+      b1 += x1 * x2;
+      b2 -= x0 * x2;
+    }
+    x0 = x1;
+    x1 = x2;
+  }
+  return std::sqrt((a11 * b2 - a12 * b1) / (a11 * a22 - a12 * a12));
+}
+
+/// Steps until the place is a hundred times the amplitude of the exact motion (far more than central difference
+/// overshoots just below its limit, by 1 / sqrt(1 - z^2 / 4)); 0: not within `most`.
+int steps_to_grow(Integrator kind, double z, int most) {
+  constexpr double start_speed = -1e-6;
+  Oscillator o(kind, z / omega, start_speed);
+  for (int n = 1; n <= most; ++n) {
+    o.step();
+    if (std::fabs(o.place()) > 100 * std::fabs(start_speed) / omega) return n;
+  }
+  return 0;
+}
+
+/// Largest error of place over the phase 0 .. 4, over the amplitude. Steps repeat the pattern.
+double solution_error(Integrator kind, double h, const std::vector<double>& pattern) {
+  Oscillator o(kind, pattern[0] * h);
+  double largest = 0;
+  for (std::size_t n = 0; o.state.clock.time.value() < 4 / omega; ++n) {
+    o.step(pattern[(n + 1) % pattern.size()] * h);
+    const double exact = speed / omega * std::sin(omega * o.state.clock.time.value());
+    largest = std::max(largest, std::fabs(o.place() - exact) / amplitude);
+  }
+  return largest;
+}
+
+struct Expected {
+  Integrator kind;
+  double order;
+  double limit;   // 0: never stable
+  double growth;  // per step at z = 0.1, leading term
+  double error;   // bound of the solution error: this times z^order over the phase 4
+};
+
+constexpr double z4 = 1e-4;  // 0.1^4
+const Expected expected[] = {
+    {Integrator::central_difference, 2, 2, 0, 1},
+    {Integrator::adams, 3, 0.966, -1.9e-5, 4},
+    {Integrator::adams2, 2, 0, z4 / 6, 4},
+    {Integrator::adams2_new_velocity, 1, 1.414, -0.01 / 4, 4},
+};
+
+std::string name(Integrator kind) { return rule_of(kind).keyword; }
+
+}  // namespace
+
+TEST_CASE("integrators: growth of the amplitude per step") {
+  for (const Expected& e : expected) {
+    for (const double z : {0.05, 0.1, 0.2, 0.4}) {
+      const double measured = measured_modulus(e.kind, z);
+      const double by_root = physical_root(e.kind, z);
+      MESSAGE(name(e.kind) << ", z = " << z << ": growth per step " << measured - 1 << ", by the root " << by_root - 1);
+      // The fit is exact for two roots; what the others leave after 100 steps, and rounding, is below 1e-9.
+      CHECK(std::fabs(measured - by_root) <= 1e-9);
+    }
+    // The table's leading term; the next is z^2 = 1 % of it, with a factor of order 1 to 10.
+    const double growth = measured_modulus(e.kind, 0.1) - 1;
+    MESSAGE(name(e.kind) << ": growth at z = 0.1 " << growth << " / " << e.growth);
+    CHECK(growth == doctest::Approx(e.growth).epsilon(0.1));
+    CHECK(std::fabs(growth - e.growth) <= std::max(0.1 * std::fabs(e.growth), 1e-11));
+  }
+}
+
+TEST_CASE("integrators: stable limit") {
+  for (const Expected& e : expected) {
+    if (e.limit == 0) {
+      // Grows at any step, slowly at a small one: z^4 / 6 a step.
+      const int steps = steps_to_grow(e.kind, 0.3, 20000);
+      const double by_growth = std::log(100.0) / std::log(physical_root(e.kind, 0.3));
+      MESSAGE(name(e.kind) << ": never stable; at z = 0.3 a hundred times larger after " << steps << " steps, by the root "
+                           << by_growth);
+      CHECK(steps == doctest::Approx(by_growth).epsilon(0.02));
+      CHECK(rule_of(e.kind).stable_limit == 0);
+      continue;
+    }
+    const double by_roots = limit_by_roots(e.kind);
+    const int below = steps_to_grow(e.kind, 0.99 * e.limit, 20000);
+    const int above = steps_to_grow(e.kind, 1.01 * e.limit, 20000);
+    MESSAGE(name(e.kind) << ": limit by the roots " << by_roots << " / " << e.limit << "; 1 % below it bounded for 20000 "
+                         << "steps: " << std::string(below == 0 ? "yes" : "no") << ", 1 % above it a hundred times larger after " << above
+                         << " steps");
+    CHECK(by_roots == doctest::Approx(e.limit).epsilon(1e-3));
+    CHECK(rule_of(e.kind).stable_limit == e.limit);
+    CHECK(below == 0);
+    CHECK(above > 0);
+  }
+}
+
+TEST_CASE("integrators: order of the solution") {
+  for (const auto& pattern : {std::vector<double>{1}, std::vector<double>{1, 1.6, 0.7, 1.2}}) {
+    for (const Expected& e : expected) {
+      std::vector<double> errors;
+      for (const double h : {4e-4, 2e-4, 1e-4, 0.5e-4}) {
+        errors.push_back(solution_error(e.kind, h, pattern));
+        const double z = 1.6 * omega * h;
+        CHECK(errors.back() <= e.error * std::pow(pattern.size() == 1 ? omega * h : z, e.order));
+      }
+      const double order = std::log(errors.front() / errors.back()) / std::log(8.0);
+      MESSAGE(name(e.kind) << ", " << std::string(pattern.size() == 1 ? "equal" : "unequal") << " steps: error " << errors.front()
+                           << " at z = 0.04, " << errors.back() << " at z = 0.005, order " << order << " / " << e.order);
+      CHECK(order >= e.order - 0.15);
+      CHECK(order <= e.order + 0.5);
+    }
+  }
+}
+
+TEST_CASE("integrators: the work and impulse books agree with the motion") {
+  for (const Expected& e : expected) {
+    std::vector<double> errors;
+    for (const double h : {4e-4, 2e-4, 1e-4}) {
+      Oscillator o(e.kind, h);
+      while (o.state.clock.time.value() < 4 / omega) o.step();
+      const Ledger& ledger = o.state.ledger;
+      errors.push_back(ledger.energy_gap / (0.5 * 6000 * speed * speed));
+      // Momentum = impulses, whatever the integrator: the same weights enter both.
+      CHECK(ledger.momentum_gap <= 1e-12 * 6000 * 10 * 4 / omega);
+    }
+    const double order = std::log2(errors.front() / errors.back()) / 2;
+    MESSAGE(name(e.kind) << ": energy books apart by " << errors.front() << ", " << errors[1] << ", " << errors.back()
+                         << " of the start energy at z = 0.04, 0.02, 0.01: order " << order);
+    if (e.kind == Integrator::central_difference) {
+      // m v-.v+ / 2 + k x^2 / 2 is what it keeps exactly on a linear spring: rounding only.
+      CHECK(errors.front() <= 1e-8);
+    } else {
+      CHECK(order >= std::min(2.0, e.order) - 0.2);
+    }
+  }
+}
+
+}  // namespace udar::verification
