@@ -99,25 +99,51 @@ void accelerate_all(const Model& model, State& state, Workspace& work, const Rul
   });
 }
 
-/// Held nodes get their velocity exactly: the reaction carries them there up to rounding only.
-void hold(const Model& model, State& state, const Workspace& work) {
-  const double span = velocity_span(state.clock);
-  std::size_t first = 0;
-  for (const Support& support : model.supports) {
-    for (std::size_t k = 0; k < support.nodes.size(); ++k) {
-      const Vec2 wanted = work.held_velocities[first + k];
-      NodeRecord& node = state.nodes[support.nodes[k]];
-      Vec2& acceleration = state.acceleration[support.nodes[k]];
-      if (support.holds_x) {
-        acceleration.x += (wanted.x - node.vx) / span;
-        node.vx = wanted.x;
-      }
-      if (support.holds_y) {
-        acceleration.y += (wanted.y - node.vy) / span;
-        node.vy = wanted.y;
-      }
+/// Held nodes get their velocity exactly: the reaction carries them there up to rounding only. An Adams rule must not
+/// extrapolate from a motion that is given from outside, which may jump: there v_n, too, is taken from the places, and
+/// what that changes in momentum and energy is handed to the books.
+class Holder {
+ public:
+  Holder(const Model& model, State& state, Workspace& work) : model_(model), state_(state), work_(work) {
+    work.held_momentum = {};
+    work.held_kinetic = 0;
+  }
+
+  void hold(Index node, bool x, bool y, Vec2 wanted) {
+    NodeRecord& record = state_.nodes[node];
+    Vec2& acceleration = state_.acceleration[node];
+    const double span = velocity_span(state_.clock);
+    if (state_.velocity.empty()) {
+      if (x) acceleration.x += (wanted.x - record.vx) / span;
+      if (y) acceleration.y += (wanted.y - record.vy) / span;
+    } else {
+      const Vec2 before = state_.velocity_before[node];
+      if (x) acceleration.x = (wanted.x - before.x) / span;
+      if (y) acceleration.y = (wanted.y - before.y) / span;
+      const Vec2 given = before + (0.5 * state_.clock.last_step) * acceleration;
+      Vec2& v = state_.velocity[node];
+      const Vec2 held{x ? given.x : v.x, y ? given.y : v.y};
+      work_.held_momentum += model_.mass[node] * (held - v);
+      work_.held_kinetic += model_.mass[node] * (dot(held, held) - dot(v, v));
+      v = held;
     }
-    first += support.nodes.size();
+    if (x) record.vx = wanted.x;
+    if (y) record.vy = wanted.y;
+  }
+
+ private:
+  const Model& model_;
+  State& state_;
+  Workspace& work_;
+};
+
+void hold_all(const Model& model, State& state, Workspace& work) {
+  Holder holder(model, state, work);
+  std::size_t k = 0;
+  for (const Support& support : model.supports) {
+    for (const Index node : support.nodes) {
+      holder.hold(node, support.holds_x, support.holds_y, work.held_velocities[k++]);
+    }
   }
 }
 
@@ -136,7 +162,7 @@ void accelerate_nodes(const Model& model, State& state, Workspace& work) {
     const StepWeights coming = weights_of(rule, clock.step, {clock.next_step, clock.last_step, clock.step_before});
     accelerate_all(model, state, work, Multistep{done, coming, first});
   }
-  hold(model, state, work);
+  hold_all(model, state, work);
 }
 
 }  // namespace udar

@@ -162,9 +162,11 @@ void close_books(const Model& model, State& state, Workspace& work) {
   const NodeSums nodes = total_of_nodes(model, state, work);
   if (!std::isfinite(nodes.kinetic_after)) fail_not_finite(model, state);
 
-  ledger.kinetic_energy = 0.5 * nodes.kinetic;
+  ledger.kinetic_energy = 0.5 * (nodes.kinetic + work.held_kinetic);
   ledger.half_step_kinetic = 0.5 * nodes.kinetic_after;
-  ledger.momentum = nodes.momentum;
+  ledger.momentum = nodes.momentum + work.held_momentum;
+  ledger.book(ForceKind::support).impulse_x.add(work.held_momentum.x);
+  ledger.book(ForceKind::support).impulse_y.add(work.held_momentum.y);
   ledger.spin = nodes.spin;
 
   const Vec2 weight = total_mass(model) * model.run.gravity;

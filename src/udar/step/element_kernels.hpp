@@ -21,9 +21,10 @@ struct Sides {
 /// Strain increment of a step and the turn that goes with it.
 template <class Real>
 struct StrainStep {
-  Real xx, yy, xy2;  ///< e_x, e_y and g_xy = 2 e_xy
-  Real cos, sin;     ///< turn of the material
-  Real twice_area;   ///< m2, of the triangle in the middle of the step
+  Real xx, yy, xy2;              ///< e_x, e_y and g_xy = 2 e_xy, in the fixed axes, of the middle of the step
+  Real end_xx, end_yy, end_xy2;  ///< the same, carried on by the second half of the turn
+  Real cos, sin;                 ///< turn of the material
+  Real twice_area;               ///< m2, of the triangle in the middle of the step
 };
 
 /// Strain increment from the sides at the end of the step and their change during it, with gradients on the triangle
@@ -40,9 +41,14 @@ StrainStep<Real> strain_step(const Sides<Real>& end, const Sides<Real>& change) 
   const Real u_y = (change.x2 * mid.x1 - change.x1 * mid.x2) * inverse;
   const Real v_x = (change.y1 * mid.y2 - change.y2 * mid.y1) * inverse;
   const Real v_y = (change.y2 * mid.x1 - change.y1 * mid.x2) * inverse;
+  const Real shear = u_y + v_x;
   const Real q = Real(0.25) * (v_x - u_y);  // half the rotation increment = tan(turn / 2)
   const Real scale = Real(1) / (Real(1) + q * q);
-  return {u_x, v_y, u_y + v_x, (Real(1) - q * q) * scale, Real(2) * q * scale, twice_area};
+  const Real cos = (Real(1) - q * q) * scale;
+  const Real sin = Real(2) * q * scale;
+  // Turned by half of that: the squares of its cosine and sine are scale and q^2 scale, their product q scale.
+  const Real moved = q * scale * (q * (u_x - v_y) + shear);
+  return {u_x, v_y, shear, u_x - moved, v_y + moved, cos * shear + sin * (u_x - v_y), cos, sin, twice_area};
 }
 
 /// Stress of material that has turned by (cos, sin), in the fixed axes: R s R^T.
@@ -56,13 +62,15 @@ SymTensor<Real> turned(const SymTensor<Real>& s, Real cos, Real sin) {
           cs * (s.xx - s.yy) + (cc - ss) * s.xy, s.zz};
 }
 
-/// Elastic stress after the strain increment `e`, plane strain (Hooke).
+/// Elastic stress at the end of the step from the old stress, already turned to there, plane strain (Hooke). The strain
+/// increment belongs to the middle of the step and is turned on by half: added as it is, the stress would be right to
+/// first order only, and a wave that runs round a spinning disc would grow or die.
 template <class Real>
 SymTensor<Real> elastic_trial(const SymTensor<Real>& s, const StrainStep<Real>& e, const Elasticity& elasticity) {
   const Real pressure = Real(elasticity.lambda) * (e.xx + e.yy);
   const Real two_g(2 * elasticity.shear_modulus);
-  return {s.xx + pressure + two_g * e.xx, s.yy + pressure + two_g * e.yy, s.xy + Real(elasticity.shear_modulus) * e.xy2,
-          s.zz + pressure};
+  return {s.xx + pressure + two_g * e.end_xx, s.yy + pressure + two_g * e.end_yy,
+          s.xy + Real(elasticity.shear_modulus) * e.end_xy2, s.zz + pressure};
 }
 
 /// Work of the stresses in the step per volume, J/m3: (s_n + s_{n+1}) : de / 2 with s_n before the turn.

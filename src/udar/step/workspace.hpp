@@ -38,6 +38,8 @@ struct Workspace {
   std::vector<Vec2> corner_forces;  ///< N, corner 3 e + i of element e
   std::vector<ElementSums> element_sums;
   std::vector<NodeSums> node_sums;
+  Vec2 held_momentum{};               ///< kg m/s, what holding nodes changed in the momentum of an Adams rule
+  double held_kinetic = 0;            ///< J, and in twice its kinetic energy
   std::vector<Vec2> held_velocities;  ///< m/s, support by support, node by node: what brings them to their places
 };
 
