@@ -16,6 +16,4 @@ TEST_CASE("a box holds what was put in and its rim") {
   CHECK(box.grown(0.5).holds({0.6, 5.4}));
 }
 
-TEST_CASE("an empty box holds nothing") {
-  CHECK(!Box{}.holds({0, 0}));
-}
+TEST_CASE("an empty box holds nothing") { CHECK(!Box{}.holds({0, 0})); }

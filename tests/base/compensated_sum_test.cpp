@@ -24,6 +24,4 @@ TEST_CASE("small terms survive a large one that comes and goes") {
   CHECK(sum.value() == 2);
 }
 
-TEST_CASE("nothing added is zero") {
-  CHECK(CompensatedSum{}.value() == 0);
-}
+TEST_CASE("nothing added is zero") { CHECK(CompensatedSum{}.value() == 0); }

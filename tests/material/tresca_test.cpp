@@ -33,7 +33,9 @@ double excess(const Stress& s) { return principal(s)[0] - principal(s)[2] - yiel
 double mean(const Stress& s) { return (s.xx + s.yy + s.zz) / 3; }
 double product(const Stress& a, const Stress& b) { return a.xx * b.xx + a.yy * b.yy + a.zz * b.zz + 2 * a.xy * b.xy; }
 Stress minus(const Stress& a, const Stress& b) { return {a.xx - b.xx, a.yy - b.yy, a.xy - b.xy, a.zz - b.zz}; }
-double size(const Stress& s) { return std::max({std::fabs(s.xx), std::fabs(s.yy), std::fabs(s.xy), std::fabs(s.zz), yield}); }
+double size(const Stress& s) {
+  return std::max({std::fabs(s.xx), std::fabs(s.yy), std::fabs(s.xy), std::fabs(s.zz), yield});
+}
 
 Stress turn(const Stress& s, double angle) {
   const double c = std::cos(angle), n = std::sin(angle);
@@ -140,9 +142,9 @@ TEST_CASE("tresca: edges of the hexagon") {
       {{2.9 * y, 0, 0, 3.0 * y}, {2.3 * y, 1.3 * y, 0, 2.3 * y}},
       {{3.0 * y, 0.1 * y, 0, 0}, {1.7 * y, 0.7 * y, 0, 0.7 * y}},
       {{0.1 * y, 0, 0, 3.0 * y}, {0.7 * y, 0.7 * y, 0, 1.7 * y}},
-      {{-2 * y, 2 * y, 0, 0}, {-0.5 * y, 0.5 * y, 0, 0}},          // a face
-      {{2 * y, 2 * y, 0, 2 * y}, {2 * y, 2 * y, 0, 2 * y}},        // pure pressure
-      {{y, y, 0, -2 * y}, {y / 3, y / 3, 0, -2 * y / 3}},          // two equal from the start
+      {{-2 * y, 2 * y, 0, 0}, {-0.5 * y, 0.5 * y, 0, 0}},    // a face
+      {{2 * y, 2 * y, 0, 2 * y}, {2 * y, 2 * y, 0, 2 * y}},  // pure pressure
+      {{y, y, 0, -2 * y}, {y / 3, y / 3, 0, -2 * y / 3}},    // two equal from the start
   };
   for (const Case& c : cases) {
     const Stress s = steel.correct(c.trial).stress;
@@ -210,8 +212,8 @@ TEST_CASE("tresca: the axes do not matter") {
     mirrored.xy = -mirrored.xy;
     Stress image = steel.correct(mirrored).stress;
     image.xy = -image.xy;
-    CHECK((image.xx == then_turned.stress.xx && image.yy == then_turned.stress.yy && image.xy == then_turned.stress.xy &&
-           image.zz == then_turned.stress.zz));
+    CHECK((image.xx == then_turned.stress.xx && image.yy == then_turned.stress.yy &&
+           image.xy == then_turned.stress.xy && image.zz == then_turned.stress.zz));
   }
 }
 

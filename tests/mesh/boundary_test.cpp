@@ -22,13 +22,9 @@ std::string complaint(const Mesh& mesh) {
   return "";
 }
 
-bool contains(const std::string& text, const char* part) {
-  return text.find(part) != std::string::npos;
-}
+bool contains(const std::string& text, const char* part) { return text.find(part) != std::string::npos; }
 
-Mesh square() {
-  return generate(RectangleMesh{.size = {2, 2}, .element_size = 1});
-}
+Mesh square() { return generate(RectangleMesh{.size = {2, 2}, .element_size = 1}); }
 
 }  // namespace
 
@@ -56,14 +52,10 @@ TEST_CASE("two triangles that touch in a node have all their sides on the bounda
   CHECK(boundary_edges(mesh).size() == 6);
 }
 
-TEST_CASE("a good mesh passes") {
-  CHECK(complaint(square()) == "");
-}
+TEST_CASE("a good mesh passes") { CHECK(complaint(square()) == ""); }
 
 TEST_CASE("every mistake in a mesh is named with its place") {
-  SUBCASE("no triangle") {
-    CHECK(contains(complaint(Mesh{}), "no triangle"));
-  }
+  SUBCASE("no triangle") { CHECK(contains(complaint(Mesh{}), "no triangle")); }
   SUBCASE("clockwise") {
     Mesh mesh = square();
     std::swap(mesh.triangles[4][0], mesh.triangles[4][1]);

@@ -78,6 +78,4 @@ TEST_CASE("what is picked by place does not depend on numbering") {
   }
 }
 
-TEST_CASE("the shortest side") {
-  CHECK(shortest_side(plate()) == 1);
-}
+TEST_CASE("the shortest side") { CHECK(shortest_side(plate()) == 1); }

@@ -98,9 +98,7 @@ TEST_CASE("a callable may be const or without state") {
   pool.for_each_block(10, nothing);
 }
 
-TEST_CASE("there is a thread to run on") {
-  CHECK(available_threads() >= 1);
-}
+TEST_CASE("there is a thread to run on") { CHECK(available_threads() >= 1); }
 
 TEST_CASE("less than one thread is refused") {
   for (const int threads : {0, -1}) {

@@ -40,12 +40,8 @@ ssize_t write(int file, const void* bytes, size_t size) {
   const size_t asked = fault.short_writes && size > 3 ? 3 : size;
   return call_or_fail(SYS_write, file, reinterpret_cast<long>(bytes), static_cast<long>(asked));
 }
-int fsync(int file) {
-  return static_cast<int>(call_or_fail(SYS_fsync, file));
-}
-int close(int file) {
-  return static_cast<int>(call_or_fail(SYS_close, file));
-}
+int fsync(int file) { return static_cast<int>(call_or_fail(SYS_fsync, file)); }
+int close(int file) { return static_cast<int>(call_or_fail(SYS_close, file)); }
 int rename(const char* from, const char* to) noexcept {
   return static_cast<int>(call_or_fail(SYS_rename, reinterpret_cast<long>(from), reinterpret_cast<long>(to)));
 }

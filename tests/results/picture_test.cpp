@@ -74,10 +74,10 @@ TEST_CASE("triangles that touch in a point give closed loops") {
 }
 
 TEST_CASE("clipping keeps what is inside") {
-  const Box box{{0, 0}, {1, 1}};
+  const Extent box{{0, 0}, {1, 1}};
   CHECK(clipped({{0.2, 0.2}, {0.8, 0.2}, {0.5, 0.8}}, box).size() == 3);
   CHECK(clipped({{2, 2}, {3, 2}, {3, 3}}, box).empty());
-  const Box cut = bounds(clipped({{-1e9, 0.5}, {-1e9, -1e9}, {1e9, -1e9}, {1e9, 0.5}}, box));
+  const Extent cut = bounds(clipped({{-1e9, 0.5}, {-1e9, -1e9}, {1e9, -1e9}, {1e9, 0.5}}, box));
   CHECK(cut.low == Vec2{0, 0});
   CHECK(cut.high == Vec2{1, 0.5});
 }

@@ -70,7 +70,8 @@ TEST_CASE("strain and turn are those of the gradient on the middle triangle") {
   Random random;
   for (int i = 0; i < 2000; ++i) {
     const Triangle middle = random.triangle();
-    const double xx = 0.1 * random.number(), xy = 0.1 * random.number(), yx = 0.1 * random.number(), yy = 0.1 * random.number();
+    const double xx = 0.1 * random.number(), xy = 0.1 * random.number(), yx = 0.1 * random.number(),
+                 yy = 0.1 * random.number();
     const Triangle change = changed(middle, xx, xy, yx, yy);
     const Triangle half = changed(middle, xx / 2, xy / 2, yx / 2, yy / 2);
     const StrainStep<double> e = strain_step(plus(middle, half), change);
@@ -128,8 +129,8 @@ TEST_CASE("corner forces have no moment and do the work of the stress") {
 }
 
 TEST_CASE("forces at both ends of a step do the stress work of its middle") {
-  // (f_n + f_{n+1}) . dx / 2 = -A_mid t s : de for a constant stress: corner forces are linear in the sides. On this the
-  // ledger's second order rests.
+  // (f_n + f_{n+1}) . dx / 2 = -A_mid t s : de for a constant stress: corner forces are linear in the sides. On this
+  // the ledger's second order rests.
   Random random;
   for (int i = 0; i < 2000; ++i) {
     const Triangle t = random.triangle();
@@ -171,7 +172,8 @@ TEST_CASE("the largest eigenfrequency of a triangle, against the matrix itself")
       double xx = 0, yy = 0, xy = 0;
       for (int k = 0; k < 3; ++k) xx += bx[k] * bx[k], yy += by[k] * by[k], xy += bx[k] * by[k];
       const double bb[3][3] = {{xx, 0, xy}, {0, yy, xy}, {xy, xy, xx + yy}};
-      const double d[3][3] = {{e.wave_modulus(), e.lambda, 0}, {e.lambda, e.wave_modulus(), 0}, {0, 0, e.shear_modulus}};
+      const double d[3][3] = {
+          {e.wave_modulus(), e.lambda, 0}, {e.lambda, e.wave_modulus(), 0}, {0, 0, e.shear_modulus}};
       double v[3] = {0.3, 0.5, 0.7};
       double largest = 0;
       for (int round = 0; round < 3000; ++round) {
@@ -185,7 +187,8 @@ TEST_CASE("the largest eigenfrequency of a triangle, against the matrix itself")
         largest = std::sqrt((u[0] * u[0] + u[1] * u[1] + u[2] * u[2]) / (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
         for (int r = 0; r < 3; ++r) v[r] = u[r] / largest;
       }
-      CHECK(eigenfrequency_squared(t, e, density * 0.5 * twice) == doctest::Approx(3 / density * largest).epsilon(1e-6));
+      CHECK(eigenfrequency_squared(t, e, density * 0.5 * twice) ==
+            doctest::Approx(3 / density * largest).epsilon(1e-6));
     }
   }
 }

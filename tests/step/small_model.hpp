@@ -15,15 +15,16 @@ namespace udar {
 struct SmallModel {
   double element_size = 0.01;  ///< m
   Integrator integrator = Integrator::central_difference;
-  std::string held;            ///< a side of the beam, or nothing
-  double end_time = 1e-3;      ///< s
+  std::string held;        ///< a side of the beam, or nothing
+  double end_time = 1e-3;  ///< s
 };
 
 inline void add_beam(Model& m, const Mesh& mesh, const Tresca& law) {
   constexpr double density = 7850;
   const auto nodes = static_cast<Index>(mesh.nodes.size());
   const auto elements = static_cast<Index>(mesh.triangles.size());
-  Body body{.name = "beam", .law = law, .density = density, .thickness = 0.01, .node_end = nodes, .element_end = elements};
+  Body body{
+      .name = "beam", .law = law, .density = density, .thickness = 0.01, .node_end = nodes, .element_end = elements};
   body.padded_end = (elements + lanes - 1) / lanes * lanes;
   body.boundary = boundary_edges(mesh);
   body.sides = mesh.sides;
@@ -53,7 +54,8 @@ inline void add_beam(Model& m, const Mesh& mesh, const Tresca& law) {
   for (Index e = 0; e < body.padded_end; e += elements_per_block) {
     m.element_blocks.push_back({e, std::min(e + elements_per_block, body.padded_end), 0});
   }
-  for (Index i = 0; i < nodes; i += nodes_per_block) m.node_blocks.push_back({i, std::min(i + nodes_per_block, nodes), 0});
+  for (Index i = 0; i < nodes; i += nodes_per_block)
+    m.node_blocks.push_back({i, std::min(i + nodes_per_block, nodes), 0});
   m.bodies.push_back(std::move(body));
 }
 
@@ -108,11 +110,15 @@ inline Model build(const SmallModel& from = {}) {
            steel);
   add_stop(m, 2e9);
   const std::vector<Index> left = nodes_of(m, "left");
-  m.loads.push_back({.name = "weight", .nodes = left, .shares = std::vector<double>(left.size(), 1), .edges = {},
-                     .value = {0, -1000}, .factor = TimeTable::constant(1)});
+  m.loads.push_back({.name = "weight",
+                     .nodes = left,
+                     .shares = std::vector<double>(left.size(), 1),
+                     .edges = {},
+                     .value = {0, -1000},
+                     .factor = TimeTable::constant(1)});
   if (!from.held.empty()) {
-    m.supports.push_back({.name = "held", .nodes = nodes_of(m, from.held), .holds_x = true, .move_x = {}, .move_y = {},
-                          .turn = {}});
+    m.supports.push_back(
+        {.name = "held", .nodes = nodes_of(m, from.held), .holds_x = true, .move_x = {}, .move_y = {}, .turn = {}});
   }
   m.pushed_nodes = m.contact_nodes;
   return m;

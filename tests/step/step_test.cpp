@@ -75,8 +75,7 @@ TEST_CASE("a copy of the state in mid-run goes on with the same bits") {
 TEST_CASE("any number of threads gives the same bits") {
   for (const Integrator integrator : {Integrator::central_difference, Integrator::adams}) {
     const bool central = integrator == Integrator::central_difference;
-    const Model model =
-        build({.element_size = 0.005, .integrator = integrator, .held = central ? "right" : ""});
+    const Model model = build({.element_size = 0.005, .integrator = integrator, .held = central ? "right" : ""});
     REQUIRE(model.element_blocks.size() > 8);
     const State one = run_steps(model, 300, 1);
     bool flowed = false;

@@ -96,7 +96,8 @@ TEST_CASE("conservation: impact and flight") {
       if (!touches && flight_begin == 0) {
         flight_begin = run.time();
         left = {run.time(), spin(run), centre_of_mass(run), {}, ledger.momentum};
-        // The centre of mass moves on with the mean velocity of the coming step; at t_n it had half a kick of gravity less.
+        // The centre of mass moves on with the mean velocity of the coming step; at t_n it had half a kick of gravity
+        // less.
         left.velocity = (1 / mass) * ledger.momentum - (0.5 * clock.next_step) * g;
         path_error = flight_momentum = flight_spin = reach = 0;
       }
@@ -115,8 +116,7 @@ TEST_CASE("conservation: impact and flight") {
     const Vec2 change = ledger.momentum - ledger.start_momentum;
     const ForceBook& stop = run.state.obstacles[0].total;
     const double weight_time = run.time() + 0.5 * run.state.clock.next_step;
-    const double momentum_error =
-        length(change - stop.impulse() - (mass * weight_time) * g) / ledger.momentum_scale;
+    const double momentum_error = length(change - stop.impulse() - (mass * weight_time) * g) / ledger.momentum_scale;
     const double spin_error = std::fabs(spin(run) - start_spin - moment.value()) / scale;
     const double bound = variant.gravity ? 1e-9 : 1e-12;
     // A spring that is met within a step: force x way / 2 is off k d^2 / 2 by at most k (v h)^2 / 8. Every node that
@@ -126,17 +126,18 @@ TEST_CASE("conservation: impact and flight") {
       const double h = run.state.clock.largest_step;
       if (touched[k]) energy_bound += 2 * run.model.obstacles[0].normal_stiffness[k] * h * h / (4 * mass);
     }
-    MESSAGE(variant.name << ": " << run.state.clock.step << " steps, momentum change " << change.y << ", impulse of the stop "
-                         << stop.impulse().y << " N s: off by " << momentum_error << ", books by "
-                         << ledger.momentum_gap / ledger.momentum_scale << "; spin momentum less moments "
-                         << spin_error << " (bound 1e-12)");
-    MESSAGE(variant.name << ": flies from " << flight_begin << " s for " << run.time() - flight_begin << " s: momentum off by "
-                         << flight_momentum / ledger.momentum_scale << ", spin about the centre of mass by "
-                         << flight_spin / scale << ", path by " << path_error / reach << " (bound " << bound << ")");
-    MESSAGE(variant.name << ": energy error " << ledger.energy_error() << " (bound " << energy_bound << "), identity error "
-                         << ledger.identity_error() << " (bound 1e-11); plastic " << ledger.plastic_work.value()
-                         << ", friction " << ledger.friction_work.value() << ", dropped " << ledger.dropped_energy.value()
-                         << " of " << ledger.start_energy << " J");
+    MESSAGE(variant.name << ": " << run.state.clock.step << " steps, momentum change " << change.y
+                         << ", impulse of the stop " << stop.impulse().y << " N s: off by " << momentum_error
+                         << ", books by " << ledger.momentum_gap / ledger.momentum_scale
+                         << "; spin momentum less moments " << spin_error << " (bound 1e-12)");
+    MESSAGE(variant.name << ": flies from " << flight_begin << " s for " << run.time() - flight_begin
+                         << " s: momentum off by " << flight_momentum / ledger.momentum_scale
+                         << ", spin about the centre of mass by " << flight_spin / scale << ", path by "
+                         << path_error / reach << " (bound " << bound << ")");
+    MESSAGE(variant.name << ": energy error " << ledger.energy_error() << " (bound " << energy_bound
+                         << "), identity error " << ledger.identity_error() << " (bound 1e-11); plastic "
+                         << ledger.plastic_work.value() << ", friction " << ledger.friction_work.value() << ", dropped "
+                         << ledger.dropped_energy.value() << " of " << ledger.start_energy << " J");
     CHECK(flight_begin > 0);
     // Internal forces cancel, friction and spring act at the same point: exact but for rounding, which in sums over
     // 2000 to 4000 steps stays a thousand times below 1e-12.
@@ -171,7 +172,8 @@ TEST_CASE("conservation: the energy error falls with the square of the step") {
     // Steps that divide the end time, and steps of which the last one is cut to a third.
     const double end = 0.1e-3;
     std::vector<double> errors;
-    for (const int steps : {128, 256, 512, 1024}) errors.push_back(smooth_error(end / (clipped ? steps - 0.67 : steps)));
+    for (const int steps : {128, 256, 512, 1024})
+      errors.push_back(smooth_error(end / (clipped ? steps - 0.67 : steps)));
     const double order = std::log(errors.front() / errors.back()) / std::log(8.0);
     MESSAGE("smooth mode, last step " << std::string(clipped ? "cut to a third" : "a whole one") << ": energy error "
                                       << errors.front() << " with 128 steps, " << errors.back() << " with 1024: order "
@@ -192,9 +194,10 @@ TEST_CASE("conservation: the energy error of an impact under smaller steps") {
       errors.push_back(run.state.ledger.energy_error());
       CHECK(run.state.clock.shortened == 0);
     }
-    MESSAGE(std::string(plastic ? "plastic" : "elastic") << " impact: energy error " << errors[0] << ", " << errors[1]
-            << ", " << errors[2] << " with steps of 0.6, 0.3 and 0.15 us: orders " << std::log2(errors[0] / errors[1])
-            << " and " << std::log2(errors[1] / errors[2]));
+    MESSAGE(std::string(plastic ? "plastic" : "elastic")
+            << " impact: energy error " << errors[0] << ", " << errors[1] << ", " << errors[2]
+            << " with steps of 0.6, 0.3 and 0.15 us: orders " << std::log2(errors[0] / errors[1]) << " and "
+            << std::log2(errors[1] / errors[2]));
     // Touch, release, change of face and onset of sliding have kinks: between 1 and 2.
     CHECK(std::log2(errors.front() / errors.back()) / 2 >= 0.85);
   }

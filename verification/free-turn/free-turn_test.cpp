@@ -81,8 +81,8 @@ TEST_CASE("free-turn: nodes turned rigidly, whatever the step") {
     MESSAGE(steps << " steps of " << angle << " rad, " << steps * angle / two_pi << " turns: stress off R s0 R^T by "
                   << t.stressed << " E, stress of the free square " << t.free << " E, change of area " << t.area
                   << ", nodes off by " << t.place << " m (bound 1e-12)");
-    // Exact in real numbers for any angle below pi. In rounded ones the same turn errs the same way in every step: up to
-    // 4.4e-16 in c^2 + s^2, so of the largest principal stress, 0.32 E. That passes 1e-12 E after 7000 steps.
+    // Exact in real numbers for any angle below pi. In rounded ones the same turn errs the same way in every step: up
+    // to 4.4e-16 in c^2 + s^2, so of the largest principal stress, 0.32 E. That passes 1e-12 E after 7000 steps.
     CHECK(t.stressed <= std::max(1e-12, 4.4e-16 * 0.32 * steps));
     CHECK(t.free <= 1e-12);
     CHECK(t.area <= 1e-12);
@@ -98,7 +98,8 @@ TEST_CASE("free-turn: a beam thrown with spin") {
   const double spin = run.state.ledger.spin;
   double spin_drift = 0, momentum_drift = 0;
 
-  /// Means over a quarter of the flight: of the volume's trace of stress, its virial exact value, and the largest shear.
+  /// Means over a quarter of the flight: of the volume's trace of stress, its virial exact value, and the largest
+  /// shear.
   struct Quarter {
     double time = 0, trace = 0, twice_kinetic = 0, shear = 0, twice_spin_energy = 0;
   };
@@ -161,13 +162,13 @@ TEST_CASE("free-turn: a beam thrown with spin") {
   }
   const double trace_growth = quarters[3].trace / quarters[1].trace - 1;
   const double shear_growth = quarters[3].shear / quarters[1].shear - 1;
-  MESSAGE(run.state.clock.step << " steps, turned " << 200 * end / two_pi << " turns: spin momentum off by " << spin_drift
-                               << ", momentum by " << momentum_drift << " (bound 1e-12), energy error "
+  MESSAGE(run.state.clock.step << " steps, turned " << 200 * end / two_pi << " turns: spin momentum off by "
+                               << spin_drift << ", momentum by " << momentum_drift << " (bound 1e-12), energy error "
                                << run.state.ledger.energy_error() << " (bound 1e-4)");
-  MESSAGE("mean of (s_x + s_y) second quarter " << quarters[1].trace / 1e6 << ", last quarter " << quarters[3].trace / 1e6
-                                               << " MPa: " << trace_growth << "; mean of the largest shear "
-                                               << quarters[1].shear / 1e6 << " and " << quarters[3].shear / 1e6
-                                               << " MPa: " << shear_growth << " (bound 0.01)");
+  MESSAGE("mean of (s_x + s_y) second quarter "
+          << quarters[1].trace / 1e6 << ", last quarter " << quarters[3].trace / 1e6 << " MPa: " << trace_growth
+          << "; mean of the largest shear " << quarters[1].shear / 1e6 << " and " << quarters[3].shear / 1e6
+          << " MPa: " << shear_growth << " (bound 0.01)");
   CHECK(spin_drift <= 1e-12);
   CHECK(momentum_drift <= 1e-12);
   CHECK(run.state.ledger.energy_error() <= 1e-4);
@@ -178,9 +179,9 @@ TEST_CASE("free-turn: a beam thrown with spin") {
   // energy, but for the change of sum m x . v. Exact for the nodes too, since the corner forces on the current geometry
   // have the virial -trace x volume; trapezoids over time remain.
   const double expected = flight_kinetic - (last.value - first.value);
-  MESSAGE("virial: trace of stress over the flight " << flight_trace << ", twice the kinetic energy less the change of sum "
-                                                     << "m x.v " << expected << " J s: off by "
-                                                     << flight_trace / expected - 1 << " (bound 1e-3)");
+  MESSAGE("virial: trace of stress over the flight "
+          << flight_trace << ", twice the kinetic energy less the change of sum "
+          << "m x.v " << expected << " J s: off by " << flight_trace / expected - 1 << " (bound 1e-3)");
   CHECK(flight_trace == doctest::Approx(expected).epsilon(1e-3));
 }
 

@@ -17,9 +17,9 @@ constexpr double density = 7850;
 struct Slope {
   double angle = 30 * degree;
   double friction = 0.2;
-  double young = 1e6;      // Pa
-  double end_time = 1;     // s
-  double start_speed = 0;  // m/s, down the slope
+  double young = 1e6;         // Pa
+  double end_time = 1;        // s
+  double start_speed = 0;     // m/s, down the slope
   bool turn_gravity = false;  // a level plane and gravity that leans instead
 
   [[nodiscard]] Elasticity elasticity() const { return elasticity_of(young, 0.3); }
@@ -65,8 +65,8 @@ double speed(const Run& run, Vec2 down) {
 }
 
 struct Slide {
-  double way = 0;           // m
-  double acceleration = 0;  // m/s2, over the second half
+  double way = 0;                   // m
+  double acceleration = 0;          // m/s2, over the second half
   double friction_over_normal = 0;  // impulses over the second half
   double friction_work_error = 0;   // of the heat against force times way of the second half
   std::uint64_t steps = 0;
@@ -91,7 +91,8 @@ Slide slide(const Slope& slope) {
   }
   const Vec2 impulse = run.state.obstacles[0].total.impulse() - half_impulse;
   const Vec2 normal = run.state.obstacles[0].normal.impulse() - half_normal;
-  const double heat = slope.friction * run.model.bodies[0].mass * g * std::cos(slope.angle) * (way(run, down) - half_way);
+  const double heat =
+      slope.friction * run.model.bodies[0].mass * g * std::cos(slope.angle) * (way(run, down) - half_way);
   return {.way = way(run, down),
           .acceleration = (speed(run, down) - half_speed) / (run.time() - half_time),
           .friction_over_normal = -dot(impulse, down) / dot(normal, perpendicular(down)),
@@ -113,11 +114,11 @@ double start_allowance(const Slope& s) {
 void check_slide(const Slope& slope) {
   const Slide s = slide(slope);
   const double exact = 0.5 * slope.acceleration() * slope.end_time * slope.end_time;
-  MESSAGE("slope " << slope.angle / degree << " deg, mu " << slope.friction << ", E " << slope.young / 1e6 << " MPa: "
-                   << s.way << " / " << exact << " m, ahead by at most " << start_allowance(slope) << " m; acceleration "
-                   << s.acceleration << " / " << slope.acceleration() << " m/s2; friction / normal impulse "
-                   << s.friction_over_normal << "; heat off by " << s.friction_work_error << "; energy error "
-                   << s.energy_error << "; " << s.steps << " steps");
+  MESSAGE("slope " << slope.angle / degree << " deg, mu " << slope.friction << ", E " << slope.young / 1e6
+                   << " MPa: " << s.way << " / " << exact << " m, ahead by at most " << start_allowance(slope)
+                   << " m; acceleration " << s.acceleration << " / " << slope.acceleration()
+                   << " m/s2; friction / normal impulse " << s.friction_over_normal << "; heat off by "
+                   << s.friction_work_error << "; energy error " << s.energy_error << "; " << s.steps << " steps");
   CHECK(s.way >= exact);
   CHECK(s.way <= exact + start_allowance(slope));
   // Once it slides quietly everything is constant, and central difference carries a constant acceleration exactly. What

@@ -1,10 +1,11 @@
+#include "udar/step/integrators.hpp"
+
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <complex>
 
 #include "problem.hpp"
-#include "udar/step/integrators.hpp"
 #include "udar/step/stages.hpp"
 
 namespace udar::verification {
@@ -125,7 +126,7 @@ double measured_modulus(Integrator kind, double z) {
     o.step();
     const double x2 = o.place();
     if (std::fabs(x2) > 8 * amplitude) break;  // it would soon leave its anvils
-    if (n > 100) {  // the other roots have died away
+    if (n > 100) {                             // the other roots have died away
       a11 += x1 * x1;
       a12 -= x1 * x0;
       a22 += x0 * x0;
@@ -205,8 +206,8 @@ TEST_CASE("integrators: stable limit") {
       // Grows at any step, slowly at a small one: z^4 / 6 a step.
       const int steps = steps_to_grow(e.kind, 0.3, 20000);
       const double by_growth = std::log(100.0) / std::log(physical_root(e.kind, 0.3));
-      MESSAGE(name(e.kind) << ": never stable; at z = 0.3 a hundred times larger after " << steps << " steps, by the root "
-                           << by_growth);
+      MESSAGE(name(e.kind) << ": never stable; at z = 0.3 a hundred times larger after " << steps
+                           << " steps, by the root " << by_growth);
       CHECK(steps == doctest::Approx(by_growth).epsilon(0.02));
       CHECK(rule_of(e.kind).stable_limit == 0);
       continue;
@@ -214,9 +215,10 @@ TEST_CASE("integrators: stable limit") {
     const double by_roots = limit_by_roots(e.kind);
     const int below = steps_to_grow(e.kind, 0.99 * e.limit, 20000);
     const int above = steps_to_grow(e.kind, 1.01 * e.limit, 20000);
-    MESSAGE(name(e.kind) << ": limit by the roots " << by_roots << " / " << e.limit << "; 1 % below it bounded for 20000 "
-                         << "steps: " << std::string(below == 0 ? "yes" : "no") << ", 1 % above it a hundred times larger after " << above
-                         << " steps");
+    MESSAGE(name(e.kind) << ": limit by the roots " << by_roots << " / " << e.limit
+                         << "; 1 % below it bounded for 20000 "
+                         << "steps: " << std::string(below == 0 ? "yes" : "no")
+                         << ", 1 % above it a hundred times larger after " << above << " steps");
     CHECK(by_roots == doctest::Approx(e.limit).epsilon(1e-3));
     CHECK(rule_of(e.kind).stable_limit == e.limit);
     CHECK(below == 0);
@@ -234,8 +236,9 @@ TEST_CASE("integrators: order of the solution") {
         CHECK(errors.back() <= e.error * std::pow(pattern.size() == 1 ? omega * h : z, e.order));
       }
       const double order = std::log(errors.front() / errors.back()) / std::log(8.0);
-      MESSAGE(name(e.kind) << ", " << std::string(pattern.size() == 1 ? "equal" : "unequal") << " steps: error " << errors.front()
-                           << " at z = 0.04, " << errors.back() << " at z = 0.005, order " << order << " / " << e.order);
+      MESSAGE(name(e.kind) << ", " << std::string(pattern.size() == 1 ? "equal" : "unequal") << " steps: error "
+                           << errors.front() << " at z = 0.04, " << errors.back() << " at z = 0.005, order " << order
+                           << " / " << e.order);
       CHECK(order >= e.order - 0.15);
       CHECK(order <= e.order + 0.5);
     }

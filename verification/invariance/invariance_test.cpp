@@ -43,7 +43,8 @@ Case seen(const View& view, Case c, double angle) {
 }
 
 Vec2 centroid(const Model& model, Index e) {
-  return (1.0 / 3) * (model.rest[model.corners[e][0]] + model.rest[model.corners[e][1]] + model.rest[model.corners[e][2]]);
+  return (1.0 / 3) *
+         (model.rest[model.corners[e][0]] + model.rest[model.corners[e][1]] + model.rest[model.corners[e][2]]);
 }
 
 /// For each of `count` places of one model the number of the same place in the other.
@@ -72,10 +73,12 @@ Apart compare(const View& view, double angle, const Case& base) {
   Run one(base);
   Run two(seen(view, base, angle));
   const Model& model = one.model;
-  const auto node_of = pairs(model.node_count, [&](Index i) { return view.direction(model.rest[i]); },
-                             [&](Index j) { return two.model.rest[j]; });
-  const auto element_of = pairs(model.element_count, [&](Index e) { return view.direction(centroid(model, e)); },
-                                [&](Index e) { return centroid(two.model, e); });
+  const auto node_of = pairs(
+      model.node_count, [&](Index i) { return view.direction(model.rest[i]); },
+      [&](Index j) { return two.model.rest[j]; });
+  const auto element_of = pairs(
+      model.element_count, [&](Index e) { return view.direction(centroid(model, e)); },
+      [&](Index e) { return centroid(two.model, e); });
   const double start_kinetic = one.state.ledger.start_kinetic;
   Apart out;
   double moved = 0;
@@ -103,9 +106,11 @@ Apart compare(const View& view, double angle, const Case& base) {
   const Ledger& a = one.state.ledger;
   const Ledger& b = two.state.ledger;
   out.energy = std::max(std::fabs(a.plastic_work.value() - b.plastic_work.value()),
-                        std::fabs(a.friction_work.value() - b.friction_work.value())) / start_kinetic;
-  out.impulse = length(view.direction(one.state.obstacles[0].total.impulse()) - two.state.obstacles[0].total.impulse()) /
-                length(one.state.obstacles[0].total.impulse());
+                        std::fabs(a.friction_work.value() - b.friction_work.value())) /
+               start_kinetic;
+  out.impulse =
+      length(view.direction(one.state.obstacles[0].total.impulse()) - two.state.obstacles[0].total.impulse()) /
+      length(one.state.obstacles[0].total.impulse());
   out.steps = one.state.clock.step;
   return out;
 }
@@ -126,9 +131,10 @@ TEST_CASE("invariance: add a velocity, turn, mirror") {
       const double turn = view.turn.sin == 0 ? 0 : angle;
       const Apart a = compare(view, turn, base);
       MESSAGE(std::string(plastic ? "plastic, " : "elastic, ")
-              << view.name << ": places apart by " << a.place << " of the largest displacement, stresses by " << a.stress
-              << " of the yield stress, plastic and friction work by " << a.energy << ", impulse by " << a.impulse << "; "
-              << a.steps << " steps, " << a.touching << " nodes touched at most, " << a.flowing << " elements flowed");
+              << view.name << ": places apart by " << a.place << " of the largest displacement, stresses by "
+              << a.stress << " of the yield stress, plastic and friction work by " << a.energy << ", impulse by "
+              << a.impulse << "; " << a.steps << " steps, " << a.touching << " nodes touched at most, " << a.flowing
+              << " elements flowed");
       CHECK(a.touching > 0);
       if (plastic) CHECK(a.flowing > 100);
       // Rounding: a place of 0.2 m carries 3e-17 m, a strain over 1 cm then 3e-15, a stress 6e-7 of 400 MPa x 2e-3; it

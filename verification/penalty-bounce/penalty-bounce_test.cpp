@@ -9,8 +9,8 @@ namespace udar::verification {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double omega = 100;     // 1/s, sqrt(k / m) at every corner
-constexpr double speed = 1;       // m/s
+constexpr double omega = 100;  // 1/s, sqrt(k / m) at every corner
+constexpr double speed = 1;    // m/s
 constexpr double total_mass = 6000;
 constexpr double total_stiffness = 6e7;
 
@@ -38,13 +38,13 @@ double distortion(const Run& run) {
 }
 
 struct Bounce {
-  double duration = 0;     // s, to the crossing of the surface, between two steps on a straight line
-  double depth = 0;        // m, of the parabola through the three deepest places
-  double force = 0;        // N, on all anvils, likewise
+  double duration = 0;  // s, to the crossing of the surface, between two steps on a straight line
+  double depth = 0;     // m, of the parabola through the three deepest places
+  double force = 0;     // N, on all anvils, likewise
   double restitution = 0;
-  double impulse = 0;      // N s
+  double impulse = 0;  // N s
   double energy_error = 0;
-  double distortion = 0;   // m
+  double distortion = 0;  // m
 };
 
 double parabola_peak(double a, double b, double c) {
@@ -186,7 +186,7 @@ void fly_past_circle(double radius, Vec2& x, Vec2& v, double time, int steps) {
   }
 }
 
-constexpr double radius = 0.1;                    // m
+constexpr double radius = 0.1;                     // m
 const Vec2 glancing{0.05, std::sqrt(0.75) * 0.1};  // m, from the centre to the first touch: 30 degrees off
 
 Case circle_case(double h) {
@@ -294,8 +294,7 @@ TEST_CASE("penalty-bounce: contact damping, half a damped cycle") {
   // m x'' + 2 zeta sqrt(k m) x' + k x = 0 until the force would pull.
   const double zeta = 0.2;
   const double root = std::sqrt(1 - zeta * zeta);
-  const double exact =
-      std::exp(-zeta / root * (pi - std::atan(2 * zeta * root / (1 - 2 * zeta * zeta))));
+  const double exact = std::exp(-zeta / root * (pi - std::atan(2 * zeta * root / (1 - 2 * zeta * zeta))));
   std::vector<double> errors;
   for (const double h : {1e-3, 0.5e-3, 0.25e-3, 0.125e-3, 0.0625e-3}) {
     const double z = omega * h;
@@ -320,11 +319,11 @@ TEST_CASE("penalty-bounce: contact damping, half a damped cycle") {
     errors.push_back(std::fabs(restitution / exact - 1));
     const Ledger& ledger = run.state.ledger;
     const double lost = 0.5 * total_mass * speed * speed * (1 - restitution * restitution);
-    MESSAGE("z = " << z << ": restitution " << restitution << " / " << exact << ", error " << errors.back() << ", bound "
-                   << 2 * zeta * z << "; damped energy " << ledger.damped_energy() << " / " << lost
+    MESSAGE("z = " << z << ": restitution " << restitution << " / " << exact << ", error " << errors.back()
+                   << ", bound " << 2 * zeta * z << "; damped energy " << ledger.damped_energy() << " / " << lost
                    << " J; off the plain recursion by " << apart << " m");
-    // The dashpot uses a velocity half a step old: first order. It acts as zeta / sqrt(1 - zeta z) would and misses half
-    // a step of its first blow: together below 2 zeta z.
+    // The dashpot uses a velocity half a step old: first order. It acts as zeta / sqrt(1 - zeta z) would and misses
+    // half a step of its first blow: together below 2 zeta z.
     CHECK(errors.back() <= 2 * zeta * z);
     CHECK(apart <= 1e-14);
     CHECK(pull <= 1e-9);  // N, of 1e5: rounding

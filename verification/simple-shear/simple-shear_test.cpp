@@ -30,8 +30,8 @@ struct Errors {
   double work = 0;      // of the stress work against G (1 - cos gamma), over G
 };
 
-/// Stress after n steps of `d`: each turns the old stress by 4 atan(d / 4) (in the plane of (s_x - s_y) / 2 and t_xy) and
-/// adds G d turned by half of that. The geometric series has the sum S sin(n turn), S (1 - cos(n turn)).
+/// Stress after n steps of `d`: each turns the old stress by 4 atan(d / 4) (in the plane of (s_x - s_y) / 2 and t_xy)
+/// and adds G d turned by half of that. The geometric series has the sum S sin(n turn), S (1 - cos(n turn)).
 struct Known {
   double shear, normal;
 };
@@ -53,8 +53,10 @@ Errors shear(int steps) {
     const Known k = known(n, d);
     e.shear = std::max(e.shear, std::fabs(s.stress_xy[0] * scale - std::sin(gamma)));
     e.normal = std::max(e.normal, std::fabs(s.stress_xx[0] * scale - (1 - std::cos(gamma))));
-    e.known = std::max({e.known, scale * std::fabs(s.stress_xy[0] - k.shear), scale * std::fabs(s.stress_xx[0] - k.normal)});
-    e.symmetry = std::max({e.symmetry, scale * std::fabs(s.stress_xx[0] + s.stress_yy[0]), scale * std::fabs(s.stress_zz[0])});
+    e.known =
+        std::max({e.known, scale * std::fabs(s.stress_xy[0] - k.shear), scale * std::fabs(s.stress_xx[0] - k.normal)});
+    e.symmetry =
+        std::max({e.symmetry, scale * std::fabs(s.stress_xx[0] + s.stress_yy[0]), scale * std::fabs(s.stress_zz[0])});
     e.alike = std::max(e.alike, scale * std::fabs(s.stress_xy[0] - s.stress_xy[1]));
     e.work = std::max(e.work, std::fabs(s.ledger.stress_work.value() * scale - (1 - std::cos(gamma))));
   }
@@ -109,9 +111,10 @@ TEST_CASE("simple-shear: perfectly plastic") {
     const double t = s.stress_xy[0] / k;
     const double s_x = s.stress_xx[0] / k;
     const double strain = 0.5 * (gamma_end * std::sqrt(1 - tilt * tilt) - tilt);
-    MESSAGE("steps of " << d << ": t_xy / k " << t << " / " << std::sqrt(1 - tilt * tilt) << ", s_x / k " << s_x << " / "
-                        << tilt << ", plastic strain " << s.plastic_strain[0] << " / " << strain
-                        << "; off the yield surface by " << off_surface << ", s_z and s_x + s_y " << out_of_plane << " Pa");
+    MESSAGE("steps of " << d << ": t_xy / k " << t << " / " << std::sqrt(1 - tilt * tilt) << ", s_x / k " << s_x
+                        << " / " << tilt << ", plastic strain " << s.plastic_strain[0] << " / " << strain
+                        << "; off the yield surface by " << off_surface << ", s_z and s_x + s_y " << out_of_plane
+                        << " Pa");
     constexpr double four_ulp = 4 * 2.220446049250313e-16;
     CHECK(off_surface <= four_ulp);
     CHECK(largest_shear <= k * (1 + four_ulp));

@@ -10,22 +10,22 @@ namespace udar::verification {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double radius = 0.1;    // m
-constexpr double spin = 1000;     // rad/s
-constexpr double young = 200e9;   // Pa
+constexpr double radius = 0.1;   // m
+constexpr double spin = 1000;    // rad/s
+constexpr double young = 200e9;  // Pa
 constexpr double nu = 0.3;
-constexpr double density = 7850;  // kg/m3
+constexpr double density = 7850;                                      // kg/m3
 constexpr double pressure = density * spin * spin * radius * radius;  // Pa
 
-// Turning disc in plane strain (Timoshenko and Goodier, Theory of Elasticity, 1951, art. 30, with nu / (1 - nu) for nu):
-// s_r(0) = (3 - 2 nu) / (8 (1 - nu)) rho w^2 R^2, u(R) = (1 - 2 nu)(1 + nu) / 4 rho w^2 R^3 / E.
+// Turning disc in plane strain (Timoshenko and Goodier, Theory of Elasticity, 1951, art. 30, with nu / (1 - nu) for
+// nu): s_r(0) = (3 - 2 nu) / (8 (1 - nu)) rho w^2 R^2, u(R) = (1 - 2 nu)(1 + nu) / 4 rho w^2 R^3 / E.
 constexpr double exact_stress = (3 - 2 * nu) / (8 * (1 - nu)) * pressure;
 constexpr double exact_growth = (1 - 2 * nu) * (1 + nu) / 4 * pressure * radius / young;
 constexpr double exact_spin = 0.5 * pi * density * radius * radius * radius * radius * spin;
 
 struct Disc {
-  double growth = 0;  // m, of the radius at the rim, mean over time
-  double stress = 0;  // Pa, (s_x + s_y) / 2 of the triangles at the centre, mean over time
+  double growth = 0;        // m, of the radius at the rim, mean over time
+  double stress = 0;        // Pa, (s_x + s_y) / 2 of the triangles at the centre, mean over time
   double stress_apart = 0;  // Pa, largest difference of those six, ever
   double spin = 0;          // kg m2/s
   double spin_drift = 0;
@@ -88,12 +88,12 @@ Level check_disc(double element_size) {
                     std::fabs(d.spin / exact_spin - 1)};
   MESSAGE("h / R = " << fine << ": u(R) " << d.growth << " / " << exact_growth << " m (error " << level.growth_error
                      << ", bound " << fine * fine << "), s_r(0) " << d.stress / 1e6 << " / " << exact_stress / 1e6
-                     << " MPa (error " << level.stress_error << ", bound " << fine << "), spin momentum " << d.spin << " / "
-                     << exact_spin << " (error " << level.spin_error << "), its drift " << d.spin_drift
+                     << " MPa (error " << level.stress_error << ", bound " << fine << "), spin momentum " << d.spin
+                     << " / " << exact_spin << " (error " << level.spin_error << "), its drift " << d.spin_drift
                      << ", energy error " << d.energy_error << "; six triangles apart by " << d.stress_apart
                      << " Pa, centre moved " << d.drift << " m");
-  // Linear triangles: displacements of order h^2, stresses of order h. The exact fields are smooth on the scale R, so the
-  // factors are about 1. 3e-4 is left of the ringing and of large motion (u / R = 5e-5).
+  // Linear triangles: displacements of order h^2, stresses of order h. The exact fields are smooth on the scale R, so
+  // the factors are about 1. 3e-4 is left of the ringing and of large motion (u / R = 5e-5).
   CHECK(level.growth_error <= fine * fine + 3e-4);
   CHECK(level.stress_error <= fine);
   // Ring k has 6 k nodes: a polygon has less area by (2 pi / 6 k)^2 / 6, twice that in its moment of inertia; mass
@@ -186,8 +186,6 @@ TEST_CASE("spinning-disc: a travelling ellipse neither grows nor dies") {
   }
 }
 
-TEST_CASE("spinning-disc: a finer mesh (long)") {
-  check_disc(0.0025);
-}
+TEST_CASE("spinning-disc: a finer mesh (long)") { check_disc(0.0025); }
 
 }  // namespace udar::verification

@@ -17,9 +17,7 @@ using Kind = Value::Kind;
 
 constexpr double largest_sensible = 1e30;  // squares and products of four such values are still finite
 
-std::string bound(double value, Dimension dimension) {
-  return value == 0 ? "0" : si_text(value, dimension);
-}
+std::string bound(double value, Dimension dimension) { return value == 0 ? "0" : si_text(value, dimension); }
 
 /// "above 0 and below 0.5"; "" without limits.
 std::string limits_text(const Limits& limits, Dimension dimension) {

@@ -18,7 +18,9 @@ struct Elastic {
 
   static std::vector<Parameter<Elastic>> parameters() { return elastic_parameters<Elastic>(); }
 
-  [[nodiscard, gnu::always_inline]] Elasticity elasticity() const { return elasticity_of(young_modulus, poisson_ratio); }
+  [[nodiscard, gnu::always_inline]] Elasticity elasticity() const {
+    return elasticity_of(young_modulus, poisson_ratio);
+  }
 
   /// Stress at the end of the step from the elastic trial stress; nothing is dissipated.
   template <class Real>

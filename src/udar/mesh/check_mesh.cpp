@@ -32,9 +32,7 @@ void throw_if_any(const std::vector<Finding>& findings) {
   if (!all.empty()) throw UserError(ExitCode::bad_mesh, all);
 }
 
-std::string at(Vec2 p) {
-  return fmt::format("({:.6g}, {:.6g}) m", p.x, p.y);
-}
+std::string at(Vec2 p) { return fmt::format("({:.6g}, {:.6g}) m", p.x, p.y); }
 
 Index number(const std::vector<Index>& numbers, std::size_t i) {
   return i < numbers.size() ? numbers[i] : static_cast<Index>(i);

@@ -8,9 +8,7 @@ namespace {
 constexpr double sixth_of_turn = 1.0471975511965976;  // pi / 3
 
 /// Number of node `m` (0 <= m < 6 k) of ring `k`, the centre being ring 0.
-Index ring_node(Index k, Index m) {
-  return k == 0 ? 0 : 1 + 3 * k * (k - 1) + m % (6 * k);
-}
+Index ring_node(Index k, Index m) { return k == 0 ? 0 : 1 + 3 * k * (k - 1) + m % (6 * k); }
 
 /// Triangles between rings k - 1 and k: in each of six sectors k of them stand on the outer ring and k - 1 on the
 /// inner.

@@ -14,9 +14,7 @@ namespace udar {
 inline constexpr Index none = std::numeric_limits<Index>::max();
 
 /// Corner after `local` round a triangle.
-constexpr int next_corner(int local) {
-  return local == 2 ? 0 : local + 1;
-}
+constexpr int next_corner(int local) { return local == 2 ? 0 : local + 1; }
 
 /// For each side of each triangle (side k runs from corner k to the next one) the triangle across it, or `none` on the
 /// boundary. All triangles must run counter-clockwise. Linear in their number.

@@ -68,19 +68,13 @@ bool in_polygon(Vec2 p, const std::vector<Vec2>& polygon, double tolerance) {
 }
 
 /// Smaller x, then smaller y, where x counts as equal within `tolerance`.
-bool comes_first(Vec2 a, Vec2 b, double tolerance) {
-  return std::fabs(a.x - b.x) > tolerance ? a.x < b.x : a.y < b.y;
-}
+bool comes_first(Vec2 a, Vec2 b, double tolerance) { return std::fabs(a.x - b.x) > tolerance ? a.x < b.x : a.y < b.y; }
 
 }  // namespace
 
-std::vector<Index> nodes_in_box(const Mesh& mesh, Vec2 a, Vec2 b) {
-  return nodes_where(mesh, in_box(mesh, a, b));
-}
+std::vector<Index> nodes_in_box(const Mesh& mesh, Vec2 a, Vec2 b) { return nodes_where(mesh, in_box(mesh, a, b)); }
 
-std::vector<Edge> edges_in_box(const Mesh& mesh, Vec2 a, Vec2 b) {
-  return edges_where(mesh, in_box(mesh, a, b));
-}
+std::vector<Edge> edges_in_box(const Mesh& mesh, Vec2 a, Vec2 b) { return edges_where(mesh, in_box(mesh, a, b)); }
 
 std::vector<Index> nodes_near_line(const Mesh& mesh, Vec2 a, Vec2 b, double tolerance) {
   return nodes_where(mesh, near_line(a, b, tolerance));

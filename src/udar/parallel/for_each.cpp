@@ -35,9 +35,7 @@ std::uint32_t wait_for_change(const std::atomic<std::uint32_t>& value, std::uint
 
 }  // namespace
 
-int available_threads() {
-  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
+int available_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 Pool::Pool(int threads) {
   if (threads < 1) throw UserError(ExitCode::usage, "the number of threads must be 1 or more");
@@ -51,9 +49,7 @@ Pool::Pool(int threads) {
   }
 }
 
-Pool::~Pool() {
-  go_home();
-}
+Pool::~Pool() { go_home(); }
 
 void Pool::go_home() {
   job_ = {};

@@ -55,20 +55,20 @@ std::vector<Edge> mesh_edges(std::span<const Triangle> triangles) {
   return edges;
 }
 
-bool Box::contains(const Box& other) const {
+bool Extent::contains(const Extent& other) const {
   return other.low.x >= low.x && other.low.y >= low.y && other.high.x <= high.x && other.high.y <= high.y;
 }
 
-bool Box::overlaps(const Box& other) const {
+bool Extent::overlaps(const Extent& other) const {
   return other.low.x < high.x && other.high.x > low.x && other.low.y < high.y && other.high.y > low.y;
 }
 
-Box Box::common_with(const Box& other) const {
+Extent Extent::common_with(const Extent& other) const {
   return {{std::max(low.x, other.low.x), std::max(low.y, other.low.y)},
           {std::min(high.x, other.high.x), std::min(high.y, other.high.y)}};
 }
 
-void Box::add(Vec2 point) {
+void Extent::add(Vec2 point) {
   if (empty()) {
     low = high = point;
     return;
@@ -77,21 +77,21 @@ void Box::add(Vec2 point) {
   high = {std::max(high.x, point.x), std::max(high.y, point.y)};
 }
 
-void Box::add(const Box& other) {
+void Extent::add(const Extent& other) {
   if (other.empty()) return;
   add(other.low);
   add(other.high);
 }
 
-Box bounds(std::span<const Vec2> points) {
-  Box box;
+Extent bounds(std::span<const Vec2> points) {
+  Extent box;
   for (const Vec2 point : points) {
     if (std::isfinite(point.x) && std::isfinite(point.y)) box.add(point);
   }
   return box;
 }
 
-std::vector<Vec2> clipped(std::vector<Vec2> polygon, const Box& box) {
+std::vector<Vec2> clipped(std::vector<Vec2> polygon, const Extent& box) {
   struct Side {
     Vec2 inward;
     Vec2 through;

@@ -20,24 +20,24 @@ std::vector<Loop> outline(std::span<const Triangle> triangles);
 std::vector<std::pair<std::int32_t, std::int32_t>> mesh_edges(std::span<const Triangle> triangles);
 
 /// An upright rectangle; empty until something was added.
-struct Box {
+struct Extent {
   Vec2 low{1, 1};
   Vec2 high{-1, -1};
 
   [[nodiscard]] bool empty() const { return low.x > high.x || low.y > high.y; }
   [[nodiscard]] Vec2 size() const { return high - low; }
   [[nodiscard]] Vec2 centre() const { return 0.5 * (low + high); }
-  [[nodiscard]] Box grown(double by) const { return {low - Vec2{by, by}, high + Vec2{by, by}}; }
-  [[nodiscard]] bool contains(const Box& other) const;
-  [[nodiscard]] bool overlaps(const Box& other) const;
-  [[nodiscard]] Box common_with(const Box& other) const;
+  [[nodiscard]] Extent grown(double by) const { return {low - Vec2{by, by}, high + Vec2{by, by}}; }
+  [[nodiscard]] bool contains(const Extent& other) const;
+  [[nodiscard]] bool overlaps(const Extent& other) const;
+  [[nodiscard]] Extent common_with(const Extent& other) const;
   void add(Vec2 point);
-  void add(const Box& other);
+  void add(const Extent& other);
 };
 
-Box bounds(std::span<const Vec2> points);
+Extent bounds(std::span<const Vec2> points);
 
 /// The part of `polygon` inside `box` (Sutherland and Hodgman 1974).
-std::vector<Vec2> clipped(std::vector<Vec2> polygon, const Box& box);
+std::vector<Vec2> clipped(std::vector<Vec2> polygon, const Extent& box);
 
 }  // namespace udar

@@ -26,8 +26,8 @@ constexpr double largest_plot_height = 640;
 constexpr double footer_height = 66;
 
 /// The bodies, whole obstacles where they are not much larger, and the nearest part of larger ones; m.
-Box choose_view(const Picture& picture) {
-  Box bodies = bounds(picture.points);
+Extent choose_view(const Picture& picture) {
+  Extent bodies = bounds(picture.points);
   for (const PictureMarker& marker : picture.markers) bodies.add(bounds({&marker.at, 1}));
   if (bodies.empty()) {
     for (const auto& polygon : picture.obstacles) bodies.add(bounds(polygon));
@@ -35,10 +35,10 @@ Box choose_view(const Picture& picture) {
   if (bodies.empty()) return {{-1, -0.5}, {1, 0.5}};
   double extent = std::max(bodies.size().x, bodies.size().y);
   if (!(extent > 0)) extent = 1;
-  const Box near = bodies.grown(0.15 * extent);
-  Box view = bodies;
+  const Extent near = bodies.grown(0.15 * extent);
+  Extent view = bodies;
   for (const auto& polygon : picture.obstacles) {
-    const Box box = bounds(polygon);
+    const Extent box = bounds(polygon);
     if (box.empty()) continue;
     if (bodies.grown(0.75 * extent).contains(box)) {
       view.add(box);
@@ -121,7 +121,7 @@ std::string loops_path(const PicturePage& page, std::span<const Vec2> points, co
 }
 
 void draw_obstacles(Svg& svg, const PicturePage& page, const Picture& picture) {
-  const Box around = page.view.grown(6 / page.scale);  // what is cut off is cut outside the plot
+  const Extent around = page.view.grown(6 / page.scale);  // what is cut off is cut outside the plot
   for (const auto& outline_of_obstacle : picture.obstacles) {
     if (bounds(outline_of_obstacle).empty()) continue;
     const std::vector<Vec2> polygon = clipped(outline_of_obstacle, around);
@@ -184,9 +184,7 @@ std::string head(const PicturePage& page, double height) {
 
 }  // namespace
 
-std::span<const std::string_view> picture_colours() {
-  return colours;
-}
+std::span<const std::string_view> picture_colours() { return colours; }
 
 ColourRange colour_range(const PictureField& field) {
   double min = std::numeric_limits<double>::infinity();

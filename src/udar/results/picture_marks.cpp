@@ -10,12 +10,10 @@ namespace {
 constexpr double marker_radius = 4;
 constexpr std::string_view halo = R"(stroke="#ffffff" stroke-width="4" stroke-linejoin="round" paint-order="stroke")";
 
-bool is_finite(Vec2 v) {
-  return std::isfinite(v.x) && std::isfinite(v.y);
-}
+bool is_finite(Vec2 v) { return std::isfinite(v.x) && std::isfinite(v.y); }
 
 /// The box of `words` whose middle left is at `at`.
-Box text_box(Vec2 at, double words_width) {
+Extent text_box(Vec2 at, double words_width) {
   return {at - Vec2{0, 0.6 * picture_font_size}, at + Vec2{words_width, 0.6 * picture_font_size}};
 }
 
@@ -33,13 +31,13 @@ void place_label(Svg& svg, PicturePage& page, Vec2 at, double clearance, const S
     const double x = side[0] > 0 ? at.x + beside : at.x - beside - words_width;
     return text_box({x, at.y + side[1] * 1.6 * distance}, words_width);
   };
-  const auto is_free = [&](const Box& box) {
+  const auto is_free = [&](const Extent& box) {
     return page.plot().contains(box) &&
-           std::none_of(page.taken.begin(), page.taken.end(), [&](const Box& other) { return other.overlaps(box); });
+           std::none_of(page.taken.begin(), page.taken.end(), [&](const Extent& other) { return other.overlaps(box); });
   };
-  Box best = box_at(sides.front(), clearance);
+  Extent best = box_at(sides.front(), clearance);
   for (std::size_t i = 0; i < 3 * sides.size(); ++i) {
-    const Box box = box_at(sides[i % sides.size()], clearance + 12.0 * static_cast<double>(i / sides.size()));
+    const Extent box = box_at(sides[i % sides.size()], clearance + 12.0 * static_cast<double>(i / sides.size()));
     if (!is_free(box)) continue;
     best = box;
     break;
@@ -134,7 +132,7 @@ Vec2 beside_markers(const PicturePage& page, const Picture& picture, Vec2 middle
 }
 
 /// How far to turn the symbol of a support, which points up, so that it stands outside the body; degrees.
-double support_turn(const PictureSupport& support, const Box& bodies) {
+double support_turn(const PictureSupport& support, const Extent& bodies) {
   const Vec2 off = support.at - bodies.centre();
   const bool nearer_to_a_side = std::fabs(off.x) * bodies.size().y > std::fabs(off.y) * bodies.size().x;
   if (support.holds_x && (!support.holds_y || nearer_to_a_side)) return off.x <= 0 ? 90 : -90;
@@ -145,7 +143,7 @@ double support_turn(const PictureSupport& support, const Box& bodies) {
 
 void draw_supports(Svg& svg, const PicturePage& page, const Picture& picture) {
   constexpr double closest = 17;
-  const Box bodies = bounds(picture.points);
+  const Extent bodies = bounds(picture.points);
   std::vector<Vec2> drawn;
   for (const PictureSupport& support : picture.supports) {
     if (!is_finite(support.at)) continue;
@@ -184,7 +182,7 @@ void draw_arrows(Svg& svg, PicturePage& page, const Picture& picture) {
     };
     draw("#ffffff", 6, 4);
     draw(picture_accent, 2.6, 0.5);
-    Box box;
+    Extent box;
     for (const Vec2 point : {tip, tail, neck + side, neck - side}) box.add(point);
     page.taken.push_back(box.grown(3));
     place_label(svg, page, middle, 10 + 0.5 * box.size().x, level_first, arrow.label);
@@ -197,7 +195,7 @@ void draw_markers(Svg& svg, PicturePage& page, const Picture& picture) {
     const Vec2 at = page.place(marker.at);
     svg.add(R"(<circle cx="{:.1f}" cy="{:.1f}" r="{}" fill="#ffffff" stroke="{}" stroke-width="2"/>)", at.x, at.y,
             marker_radius, picture_accent);
-    page.taken.push_back(Box{at, at}.grown(marker_radius + 2));
+    page.taken.push_back(Extent{at, at}.grown(marker_radius + 2));
   }
 }
 

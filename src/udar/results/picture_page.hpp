@@ -18,18 +18,18 @@ constexpr double picture_font_size = 13;
 
 /// Where things are on the page, px; y points down there.
 struct PicturePage {
-  Box view;          ///< m
+  Extent view;       ///< m
   double scale = 1;  ///< px per m
   Vec2 corner{};     ///< upper left of the plot
   Vec2 size{};       ///< of the plot
   double left = 0;   ///< of everything
   double right = 0;
-  std::vector<Box> taken{};  ///< where no further label may go
+  std::vector<Extent> taken{};  ///< where no further label may go
 
   [[nodiscard]] Vec2 place(Vec2 point) const {
     return {corner.x + (point.x - view.low.x) * scale, corner.y + (view.high.y - point.y) * scale};
   }
-  [[nodiscard]] Box plot() const { return {corner, corner + size}; }
+  [[nodiscard]] Extent plot() const { return {corner, corner + size}; }
 };
 
 /// What the colours of a field stand for.

@@ -27,12 +27,8 @@ std::string_view without_temporary(std::string_view name) {
 bool is_own_top_file(std::string_view name) {
   return std::find(top_files.begin(), top_files.end(), without_temporary(name)) != top_files.end();
 }
-bool is_own_field(std::string_view name) {
-  return without_temporary(name).ends_with(".vtu");
-}
-bool is_own_history(std::string_view name) {
-  return without_temporary(name).ends_with(".csv");
-}
+bool is_own_field(std::string_view name) { return without_temporary(name).ends_with(".vtu"); }
+bool is_own_history(std::string_view name) { return without_temporary(name).ends_with(".csv"); }
 
 [[noreturn]] void disk_refuses(std::string_view action, const fs::path& path, const std::error_code& error) {
   throw OutputError(

@@ -125,13 +125,9 @@ void for_each_member(T& s, Visit visit) {
 Json written(double value) {
   return value;  // NaN and infinities become null in the text
 }
-Json written(const Vec2& value) {
-  return Json::array({value.x, value.y});
-}
+Json written(const Vec2& value) { return Json::array({value.x, value.y}); }
 template <class T>
-requires std::integral<T> || std::same_as<T, std::string> Json written(const T& value) {
-  return value;
-}
+requires std::integral<T> || std::same_as<T, std::string> Json written(const T& value) { return value; }
 template <class T>
 Json written(const std::vector<T>& values);
 template <class T>
@@ -162,18 +158,14 @@ void check(bool right) {
   if (!right) throw OutputError("not a summary of a run: a list or a table is missing");
 }
 
-void read(const Json& json, double& value) {
-  value = json.is_null() ? no_number : json.get<double>();
-}
+void read(const Json& json, double& value) { value = json.is_null() ? no_number : json.get<double>(); }
 void read(const Json& json, Vec2& value) {
   read(json.at(0), value.x);
   read(json.at(1), value.y);
 }
 template <class T>
 requires std::integral<T> || std::same_as<T, std::string>
-void read(const Json& json, T& value) {
-  value = json.get<T>();
-}
+void read(const Json& json, T& value) { value = json.get<T>(); }
 template <class T>
 void read(const Json& json, std::vector<T>& values);
 template <class T>
@@ -220,9 +212,7 @@ Summary summary_from_json(std::string_view text) {
   }
 }
 
-void write_summary(const std::filesystem::path& path, const Summary& summary) {
-  write_file(path, to_json(summary));
-}
+void write_summary(const std::filesystem::path& path, const Summary& summary) { write_file(path, to_json(summary)); }
 
 Summary read_summary(const std::filesystem::path& path) {
   constexpr std::size_t most_bytes = std::size_t{1} << 26;

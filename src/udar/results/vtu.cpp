@@ -188,8 +188,6 @@ std::string to_vtu(const VtuGrid& grid) {
   return text.xml + text.data + "\n</AppendedData>\n</VTKFile>\n";
 }
 
-void write_vtu(const std::filesystem::path& path, const VtuGrid& grid) {
-  write_file(path, to_vtu(grid));
-}
+void write_vtu(const std::filesystem::path& path, const VtuGrid& grid) { write_file(path, to_vtu(grid)); }
 
 }  // namespace udar

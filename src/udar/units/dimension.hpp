@@ -34,9 +34,7 @@ inline constexpr Dimension stiffness{1, 0, -2};
 constexpr Dimension operator+(Dimension a, Dimension b) {
   return {a.mass + b.mass, a.length + b.length, a.time + b.time, a.angle + b.angle};
 }
-constexpr Dimension operator*(int n, Dimension a) {
-  return {n * a.mass, n * a.length, n * a.time, n * a.angle};
-}
+constexpr Dimension operator*(int n, Dimension a) { return {n * a.mass, n * a.length, n * a.time, n * a.angle}; }
 
 /// Whether a quantity of dimension `given` may stand where `needed` is asked for.
 constexpr bool fits(Dimension given, Dimension needed) {

@@ -45,8 +45,8 @@ struct Parameter {
   Dimension dimension{};
   Limits limits{};
   std::string doc;
-  bool required = true;      ///< otherwise the value of a default-constructed Owner holds
-  std::string example;  ///< "2400 kgf/cm^2"; empty: one that shows the unit
+  bool required = true;  ///< otherwise the value of a default-constructed Owner holds
+  std::string example;   ///< "2400 kgf/cm^2"; empty: one that shows the unit
 };
 
 }  // namespace udar
