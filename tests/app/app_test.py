@@ -180,7 +180,7 @@ class Check(Program):
             r"time step  .* automatic; stable up to .* ns, limited by block element \d+",
             r"steps      \d+, more as elements deform\n",
             r"memory     .* kB\n",
-            r"time       about .* s with 1 thread\n",
+            r"time       about .* s with 1 thread, and what writing the fields takes\n",
             r"0 errors, 0 warnings; nothing was run\n$",
         ]:
             self.assertRegex(out, pattern)

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 
 #include "tests/output/watched_run.hpp"
 #include "tests/results/scratch.hpp"
 #include "tests/simulation/example.hpp"
+#include "udar/case/build_model.hpp"
 #include "udar/output/observer.hpp"
 
 namespace udar {
@@ -214,7 +216,12 @@ TEST_CASE("of an endless obstacle a strip is drawn, on its own side") {
   for (const Vec2 normal : {Vec2{0, 1}, Vec2{0, -1}, Vec2{1, 0}, Vec2{3, 4}}) {
     CAPTURE(normal.x);
     CAPTURE(normal.y);
-    input.obstacles[0].shape = HalfPlane{.point = {0, 0.01}, .normal = normal};
+    // A hair away from the nearest node of the block.
+    const Model probe = build_model(falling_block());
+    double nearest = std::numeric_limits<double>::infinity();
+    for (Index i = 0; i < probe.node_count; ++i) nearest = std::min(nearest, dot(probe.rest[i], normal));
+    const Vec2 point = ((nearest - 1e-6) / dot(normal, normal)) * normal;
+    input.obstacles[0].shape = HalfPlane{.point = point, .normal = normal};
     input.obstacles[0].stiffness = 1;
     const WatchedRun run(input);
     const auto outlines = obstacle_outlines(run.model, run.state);
@@ -222,7 +229,7 @@ TEST_CASE("of an endless obstacle a strip is drawn, on its own side") {
     REQUIRE(outlines[0].size() == 4);
     double deepest = 0;
     for (const Vec2 p : outlines[0]) {
-      const double height = dot(p - Vec2{0, 0.01}, normal) / length(normal);
+      const double height = dot(p - point, normal) / length(normal);
       CHECK(height <= 1e-12);
       deepest = std::min(deepest, height);
     }

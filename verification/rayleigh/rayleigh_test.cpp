@@ -174,6 +174,7 @@ TEST_CASE("rayleigh: finer mesh (long)") { check_speed(0.3, 0.927413, {0.02, 0.0
 TEST_CASE("rayleigh: the whole half-plane stays symmetric") {
   Case c = load("rayleigh.toml");
   c.supports.clear();
+  c.observed_nodes.clear();  // their places are outside of this smaller piece
   c.run.end_time = 100e-6;
   c.loads[0].value.y *= 2;
   RectangleMesh& mesh = std::get<RectangleMesh>(c.bodies[0].mesh);

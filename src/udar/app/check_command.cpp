@@ -124,8 +124,8 @@ void print_time_step(const Model& model, const Clock& clock) {
   }
 }
 
-/// Seconds of one step, from a few done on a copy; none where the case fails so early.
-std::optional<double> step_seconds(const Model& model, State state, Workspace& work) {
+/// Seconds of one step, from a few done on a copy.
+double step_seconds(const Model& model, State state, Workspace& work) {
   const auto begin = steady_clock::now();
   const auto spent = [&] { return std::chrono::duration<double>(steady_clock::now() - begin).count(); };
   int steps = 0;
@@ -134,8 +134,8 @@ std::optional<double> step_seconds(const Model& model, State state, Workspace& w
       step(model, state, work);
       ++steps;
     }
-  } catch (const NumericalError&) {
-    return std::nullopt;
+  } catch (const NumericalError& failure) {
+    throw UserError(ExitCode::numerical, std::string("the case fails within its first steps: ") + failure.what());
   }
   return steps > 0 ? spent() / steps : 0;
 }
@@ -144,11 +144,9 @@ void print_cost(const Model& model, const State& state, Workspace& work) {
   const double steps = std::ceil(model.run.end_time / state.clock.next_step * (1 - 1e-9));
   row("steps", "", fmt::format("{:.0f}{}", steps, model.run.time_step ? "" : ", more as elements deform"));
   row("memory", "", in_units(static_cast<double>(memory_of(model, state)), "B"));
-  const auto each = step_seconds(model, state, work);
+  const double each = step_seconds(model, state, work);
   const std::string threads = counted(work.pool.threads(), "thread");
-  row("time", "",
-      each ? fmt::format("about {:.2g} s with {}", steps * *each, threads)
-           : "unknown: the case fails in its first steps; `udar run` says why");
+  row("time", "", fmt::format("about {:.2g} s with {}, and what writing the fields takes", steps * each, threads));
 }
 
 }  // namespace

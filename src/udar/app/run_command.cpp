@@ -1,4 +1,5 @@
 #include <csignal>
+#include <ctime>
 #include <filesystem>
 
 #include "udar/app/commands.hpp"
@@ -14,10 +15,18 @@ namespace {
 namespace fs = std::filesystem;
 
 volatile std::sig_atomic_t caught_signal = 0;
+volatile std::sig_atomic_t caught_at = 0;  // s
 
 extern "C" void note_signal(int signal) {
+  // Some tools send a signal to a process and again to its group: only one that comes later ends the program at once.
+  const auto now = static_cast<std::sig_atomic_t>(std::time(nullptr));
+  if (caught_signal != 0 && now > caught_at + 1) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
+  if (caught_signal != 0) return;
   caught_signal = signal;
-  std::signal(signal, SIG_DFL);  // a second one ends the program at once
+  caught_at = now;
 }
 
 /// runs/<case>, or the first of runs/<case>-2, -3, ... that is not there: a run never replaces another unasked.

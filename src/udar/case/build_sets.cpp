@@ -34,6 +34,16 @@ std::vector<Edge> chosen_edges(const Mesh& mesh, const Selection& by) {
   return {};
 }
 
+/// The longest side of the triangles at a node, m: what is farther from it than that is not meant by it.
+double longest_side(const Mesh& mesh, Index node) {
+  double longest = 0;
+  for (const auto& t : mesh.triangles) {
+    if (std::find(t.begin(), t.end(), node) == t.end()) continue;
+    for (const Index corner : t) longest = std::max(longest, length(mesh.nodes[corner] - mesh.nodes[node]));
+  }
+  return longest;
+}
+
 template <class Found>
 Found not_empty(Found found, const std::string& who, const std::string& body, const char* what) {
   if (!found.empty()) return found;
@@ -94,9 +104,16 @@ void add_loads(Model& model, const Case& input, const std::vector<Mesh>& meshes)
 void add_observers(Model& model, const Case& input, const std::vector<Mesh>& meshes) {
   for (const NodeObserverCase& from : input.observed_nodes) {
     const Index b = body_index(input, from.body, fmt::format("observer `{}`", from.name));
-    model.observed_nodes.push_back({from.name,
-                                    model.bodies[b].node_begin + nearest_node(meshes[b], from.at),
-                                    {from.window.begin, from.window.end}});
+    const Index node = nearest_node(meshes[b], from.at);
+    if (length(meshes[b].nodes[node] - from.at) > longest_side(meshes[b], node)) {
+      throw UserError(
+          ExitCode::bad_case,
+          fmt::format("observer `{}`: body `{}` has no node near ({:.5g}, {:.5g}) m", from.name, from.body, from.at.x,
+                      from.at.y),
+          fmt::format("the nearest is at ({:.5g}, {:.5g}) m", meshes[b].nodes[node].x, meshes[b].nodes[node].y));
+    }
+    model.observed_nodes.push_back(
+        {from.name, model.bodies[b].node_begin + node, {from.window.begin, from.window.end}});
   }
   for (const ElementObserverCase& from : input.observed_elements) {
     const Index b = body_index(input, from.body, fmt::format("observer `{}`", from.name));

@@ -10,7 +10,7 @@ namespace udar {
 /// Disc of triangles in rings about the centre. Named side: outer.
 struct DiscMesh {
   static constexpr const char* keyword = "disc";
-  static constexpr const char* doc = "disc of triangles in rings about its centre";
+  static constexpr const char* doc = "disc of triangles in rings about its centre; side: outer";
 
   double radius = 0;        ///< m
   Vec2 at{};                ///< m, centre

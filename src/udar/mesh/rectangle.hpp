@@ -10,7 +10,8 @@ namespace udar {
 /// Square cells cut into triangles. Named sides: bottom, right, top, left (of the rectangle before it is turned).
 struct RectangleMesh {
   static constexpr const char* keyword = "rectangle";
-  static constexpr const char* doc = "rectangle of square cells, each cut into triangles";
+  static constexpr const char* doc =
+      "rectangle of square cells, each cut into triangles; sides: bottom, right, top, left (before it is turned)";
   /// How a cell is cut. right: lower left to upper right; left: the other way; alternating: cell (i, j) counted from
   /// the lower left one is cut `right` where i + j is even; crossed: by both diagonals, four triangles.
   enum class Diagonals { right, left, alternating, crossed };

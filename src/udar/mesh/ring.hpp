@@ -10,7 +10,7 @@ namespace udar {
 /// Ring of cells cut into triangles. Named sides: outer, inner.
 struct RingMesh {
   static constexpr const char* keyword = "ring";
-  static constexpr const char* doc = "ring of cells, each cut into triangles";
+  static constexpr const char* doc = "ring of cells, each cut into triangles; sides: outer, inner";
 
   double outer_radius = 0;  ///< m
   double inner_radius = 0;  ///< m

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "udar/output/observer.hpp"
 
@@ -79,8 +80,11 @@ void judge_stop(const Summary& s, Judgement& judgement) {
 // Comparisons so that a number that is none is bad.
 void judge_books(const Model& model, const State& state, const Summary& s, Judgement& judgement) {
   if (!(s.energy_error <= 0.001)) {
-    judgement.because(s.energy_error <= 0.01 ? Judgement::doubtful : Judgement::bad,
-                      "the energy books are {:.3g} % apart (good: 0.1 %)", 100 * s.energy_error);
+    judgement.because(
+        s.energy_error <= 0.01 ? Judgement::doubtful : Judgement::bad,
+        "the energy books are {:.3g} % apart (good: 0.1 %); a smaller `step_safety`, 0.5, or softer contact "
+        "springs close them",
+        100 * s.energy_error);
   }
   constexpr double rounding = 1e-9;
   if (!(state.ledger.momentum_gap <= rounding * momentum_at_stake(model, state))) {
@@ -92,12 +96,23 @@ void judge_books(const Model& model, const State& state, const Summary& s, Judge
   }
 }
 
-void judge_contact(const Summary& s, Judgement& judgement) {
+/// Deep penetration does not open the books, so it is told but leaves the verdict as it is.
+void judge_contact(const Model& model, const Summary& s, Judgement& judgement) {
   if (s.penetration_ratio <= 0.05) return;
-  judgement.because(Judgement::doubtful,
-                    "nodes sank into an obstacle by up to {:.3g} % of an element; make its `stiffness` larger or "
-                    "\"auto\"",
-                    100 * s.penetration_ratio);
+  double softest = std::numeric_limits<double>::infinity();
+  for (const Obstacle& obstacle : model.obstacles) {
+    for (const double k : obstacle.normal_stiffness) softest = std::min(softest, k);
+  }
+  judgement.because(
+      Judgement::good,
+      "nodes sank into an obstacle by up to {:.3g} % of an element (springs from {:.3g} N/m on); where that "
+      "matters, give it a larger `stiffness`, with a smaller `step_safety`",
+      100 * s.penetration_ratio, softest);
+}
+
+bool has_corners(const Model& model) {
+  return std::any_of(model.obstacles.begin(), model.obstacles.end(),
+                     [](const Obstacle& o) { return std::holds_alternative<PreparedPolygon>(o.prepared); });
 }
 
 void judge_steps(const Model& model, const State& state, const Summary& s, Judgement& judgement) {
@@ -122,10 +137,9 @@ void judge_steps(const Model& model, const State& state, const Summary& s, Judge
   constexpr double crushed = 0.25;
   if (clock.tightest.size < crushed * clock.start_limit) {
     judgement.because(Judgement::good,
-                      "{} was crushed: its stable step fell to {:.3g} % of the first one at t = {:.4g} s; corners of "
-                      "obstacles are felt by nodes only",
+                      "{} was crushed: its stable step fell to {:.3g} % of the first one at t = {:.4g} s{}",
                       element_name(model, clock.tightest.element), 100 * clock.tightest.size / clock.start_limit,
-                      clock.tightest_time);
+                      clock.tightest_time, has_corners(model) ? "; corners of obstacles are felt by nodes only" : "");
   }
 }
 
@@ -166,7 +180,7 @@ void judge(const Model& model, const State& state, Summary& s) {
   Judgement judgement{.reasons = std::move(s.reasons)};
   judge_stop(s, judgement);
   judge_books(model, state, s, judgement);
-  judge_contact(s, judgement);
+  judge_contact(model, s, judgement);
   judge_steps(model, state, s, judgement);
   s.verdict = judgement.word();
   s.reasons = std::move(judgement.reasons);

@@ -14,6 +14,9 @@
 namespace udar {
 namespace {
 
+/// Over the end time: with shorter steps a run would never end.
+constexpr double shortest_step = 1e-12;
+
 double frequency_squared(const Model& model, const State& state, Index element) {
   const auto& corners = model.corners[element];
   const NodeRecord& a = state.nodes[corners[0]];
@@ -97,9 +100,16 @@ double fitted_to_end(const Model& model, double step, double left) {
   return step;
 }
 
-/// A fixed step that is above the limit from the start is a mistake in the case.
-void refuse_unstable_step(const Model& model, const State& state) {
-  if (!model.run.time_step || rule_of(model.run.integrator).stable_limit == 0) return;
+/// A fixed step that is above the limit from the start, or absurdly below, is a mistake in the case.
+void refuse_unusable_step(const Model& model, const State& state) {
+  if (!model.run.time_step) return;
+  if (*model.run.time_step < shortest_step * model.run.end_time) {
+    throw UserError(ExitCode::bad_case,
+                    fmt::format("time_step = {:.4g} s would take {:.3g} steps to the end", *model.run.time_step,
+                                model.run.end_time / *model.run.time_step),
+                    fmt::format("write time_step = \"{:.3g} s\", or \"auto\"", 0.9 * state.clock.limit.size));
+  }
+  if (rule_of(model.run.integrator).stable_limit == 0) return;
   const StepLimit& limit = state.clock.limit;
   if (*model.run.time_step <= limit.size) return;
   const Body& body = model.body_of_element(limit.element);
@@ -118,7 +128,7 @@ void choose_time_step(const Model& model, State& state, Workspace& work) {
   Clock& clock = state.clock;
   clock.limit = stable_limit(model, state, work);
   if (clock.step == 0) {
-    refuse_unstable_step(model, state);
+    refuse_unusable_step(model, state);
     clock.start_limit = clock.limit.size;
   }
   if (clock.step == 0 || clock.limit.size < clock.tightest.size) {
@@ -127,7 +137,7 @@ void choose_time_step(const Model& model, State& state, Workspace& work) {
   }
   const double left = model.run.end_time - clock.time.value();
   const double step = next_step(model, clock);
-  if (step < 1e-12 * model.run.end_time) fail_collapsing_step(model, state);
+  if (step < shortest_step * model.run.end_time) fail_collapsing_step(model, state);
   clock.smallest_step = clock.step == 0 ? step : std::min(clock.smallest_step, step);
   clock.largest_step = std::max(clock.largest_step, step);
   clock.next_step = fitted_to_end(model, step, left);

@@ -20,6 +20,7 @@ void close_books(const Model& model, State& state, Workspace& work);
 
 // Only at the start.
 State rest_state(const Model& model);
+void refuse_buried_nodes(const Model& model, const State& state);
 void open_books(const Model& model, State& state);
 
 /// Sum of the corner forces at a node in element order, N.

@@ -1,3 +1,6 @@
+#include <fmt/core.h>
+
+#include "udar/base/error.hpp"
 #include "udar/step/integrators.hpp"
 #include "udar/step/stages.hpp"
 
@@ -33,6 +36,29 @@ State rest_state(const Model& model) {
   state.support_forces.resize(held);
   state.body_momentum.resize(model.bodies.size());
   return state;
+}
+
+void refuse_buried_nodes(const Model& model, const State& state) {
+  // A block may start at rest on its springs, a small part of an element deep; more is a body put in the wrong place,
+  // which its springs would shoot off.
+  constexpr double deepest = 0.2;
+  const std::size_t count = model.contact_nodes.size();
+  std::size_t worst = 0;
+  double ratio = 0;
+  for (std::size_t k = 0; k < state.contacts.size(); ++k) {
+    const double here = state.contacts[k].penetration / model.contact_node_sizes[k % count];
+    if (here <= ratio) continue;
+    ratio = here;
+    worst = k;
+  }
+  if (ratio <= deepest) return;
+  const Index node = model.contact_nodes[worst % count];
+  const Vec2 place = model.rest[node];
+  throw UserError(ExitCode::bad_case,
+                  fmt::format("body `{}` starts inside obstacle `{}`: its node at ({:.5g}, {:.5g}) m is {:.4g} m deep",
+                              model.body_of_node(node).name, model.obstacles[worst / count].name, place.x, place.y,
+                              state.contacts[worst].penetration),
+                  "move the body (`at` of its mesh) or the obstacle, so that they touch at most");
 }
 
 }  // namespace udar

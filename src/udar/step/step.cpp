@@ -30,6 +30,7 @@ void prepare(const Model& model, State& state, Workspace& work) {
 State start(const Model& model, Workspace& work) {
   State state = rest_state(model);
   prepare(model, state, work);
+  refuse_buried_nodes(model, state);
   return state;
 }
 
