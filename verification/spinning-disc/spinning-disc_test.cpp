@@ -182,7 +182,7 @@ TEST_CASE("spinning-disc: a travelling ellipse neither grows nor dies") {
     const double growth = ellipse_growth(direction, 0.9);
     MESSAGE("ellipse travelling " << std::string(direction > 0 ? "with" : "against") << " the spin: late over early "
                                   << growth << " (bound 1 +- 0.02)");
-    CHECK(growth == doctest::Approx(1).epsilon(0.02));
+    CHECK(std::fabs(growth - 1) <= 0.02);
   }
 }
 
