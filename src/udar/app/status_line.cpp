@@ -17,7 +17,7 @@ using std::chrono::steady_clock;
 std::string clock_text(double seconds) {
   constexpr double longest = 100 * 3600;
   if (!(seconds < longest)) return "> 99 h";
-  const auto whole = static_cast<long long>(seconds + 0.5);
+  const auto whole = std::llround(seconds);
   if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
   return fmt::format("{:02}:{:02}", whole / 60, whole % 60);
 }
@@ -74,7 +74,7 @@ void StatusLine::print(const Model& model, const State& state, const std::string
                          100 * state.ledger.energy_error(), contacts));
 }
 
-void StatusLine::print_line(const std::string& line) {
+void StatusLine::print_line(const std::string& line) const {
   if (terminal_) {
     say("\r{}\x1b[K", line.substr(0, terminal_width() - 1));
   } else {

@@ -36,7 +36,6 @@ struct Pack {
   static constexpr int lanes = 2;
 #endif
   using Vector = double __attribute__((vector_size(lanes * sizeof(double))));
-  using Unaligned = double __attribute__((vector_size(lanes * sizeof(double)), aligned(8), may_alias));
   using Mask = decltype(Vector{} > Vector{});
   Vector v;
 
@@ -44,8 +43,13 @@ struct Pack {
   Pack(Vector vector) : v(vector) {}
   explicit Pack(double s) : v(Vector{} + s) {}
 
-  static Pack load(const double* from) { return Pack(Vector(*reinterpret_cast<const Unaligned*>(from))); }
-  void store(double* to) const { *reinterpret_cast<Unaligned*>(to) = v; }
+  // Arrays begin where the allocator says. A builtin, so that no library function is compiled for these instructions.
+  static Pack load(const double* from) {
+    Vector vector;
+    __builtin_memcpy(&vector, from, sizeof vector);
+    return vector;
+  }
+  void store(double* to) const { __builtin_memcpy(to, &v, sizeof v); }
 
   friend Pack operator+(Pack a, Pack b) { return a.v + b.v; }
   friend Pack operator-(Pack a, Pack b) { return a.v - b.v; }

@@ -37,7 +37,8 @@ void place_label(Svg& svg, PicturePage& page, Vec2 at, double clearance, const S
   };
   Extent best = box_at(sides.front(), clearance);
   for (std::size_t i = 0; i < 3 * sides.size(); ++i) {
-    const Extent box = box_at(sides[i % sides.size()], clearance + 12.0 * static_cast<double>(i / sides.size()));
+    const std::size_t round = i / sides.size();
+    const Extent box = box_at(sides[i % sides.size()], clearance + 12.0 * static_cast<double>(round));
     if (!is_free(box)) continue;
     best = box;
     break;
