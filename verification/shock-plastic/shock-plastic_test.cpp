@@ -151,8 +151,9 @@ double check(double element_size) {
 }
 
 /// The ringing behind the front unloads elements elastically and leaves them inside the yield surface: s_z - s_x is
-/// below the yield stress on the mean and s_x too small by less than half of that. The loss of a particle falls with the
-/// number of cells that the front has run to it as (cells)^(-1/3), the order of a jump: at least 1/3 over the plateau.
+/// below the yield stress on the mean and s_x too small by less than half of that. The loss of a particle falls with
+/// the number of cells that the front has run to it as (cells)^(-1/3), the order of a jump: at least 1/3 over the
+/// plateau.
 void check_meshes(const std::vector<double>& sizes) {
   std::vector<double> inside;
   for (const double h : sizes) inside.push_back(check(h));
