@@ -70,11 +70,13 @@ struct Ledger {
     return book(ForceKind::gravity).work_now + book(ForceKind::load).work_now + book(ForceKind::support).work_now +
            obstacle_work_now;
   }
-  /// Everything the energy went into, less what came in: 0 when the books close. J at t_n.
-  [[nodiscard]] double energy_balance() const {
+  /// Everything the energy went into, J at t_n.
+  [[nodiscard]] double total_energy() const {
     return kinetic_energy + elastic_energy() + plastic_work.value() + contact_energy + tangential_energy +
-           friction_work.value() + dropped_energy.value() + damped_energy() - start_energy - external_work();
+           friction_work.value() + dropped_energy.value() + damped_energy();
   }
+  /// The same less what came in: 0 when the books close. J at t_n.
+  [[nodiscard]] double energy_balance() const { return total_energy() - start_energy - external_work(); }
   [[nodiscard]] double energy_scale() const { return start_energy + external_throughput.value(); }
   /// Largest imbalance so far over start energy and work done; 0 where nothing happened yet.
   [[nodiscard]] double energy_error() const { return energy_scale() > 0 ? energy_gap / energy_scale() : 0; }

@@ -48,8 +48,6 @@ Observer observe_energy(const Model&) {
           [](const State& state, std::span<double> out) {
             const Ledger& l = state.ledger;
             const double contact = l.contact_energy + l.tangential_energy;
-            const double total = l.kinetic_energy + l.elastic_energy() + l.plastic_work.value() + contact +
-                                 l.friction_work.value() + l.dropped_energy.value() + l.damped_energy();
             const std::array values{l.kinetic_energy,
                                     l.elastic_energy(),
                                     l.plastic_work.value(),
@@ -61,7 +59,7 @@ Observer observe_energy(const Model&) {
                                     l.book(ForceKind::load).work_now,
                                     l.book(ForceKind::support).work_now,
                                     l.obstacle_work_now,
-                                    total,
+                                    l.total_energy(),
                                     l.energy_balance()};
             std::copy(values.begin(), values.end(), out.begin());
           }};

@@ -26,7 +26,7 @@ LedgerSummary ledger_of(const Model& model, const State& state) {
                   .loads = l.book(ForceKind::load).work_now,
                   .supports = l.book(ForceKind::support).work_now,
                   .obstacles = l.obstacle_work_now};
-  s.total = s.kinetic + s.elastic + s.plastic + s.contact + s.friction + s.dropped + s.damping;
+  s.total = l.total_energy();
   s.error = l.energy_balance();
   return s;
 }
