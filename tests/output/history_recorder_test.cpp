@@ -175,7 +175,7 @@ TEST_CASE("stresses of an element: principal ones in order, the largest shear fr
   state.stress_xy[e] = 40;
   state.stress_zz[e] = 10;
   state.plastic_strain[e] = 0.25;
-  state.plastic_power[e] = 1;
+  state.flowing[e / 8] = static_cast<std::uint8_t>(1U << e % 8);
   std::vector<double> values(observer.columns.size());
   observer.measure(state, values);
   CHECK(values == std::vector<double>{60, 0, 40, 10, 80, 10, -20, 50, 0.25, 1});

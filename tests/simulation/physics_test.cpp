@@ -33,8 +33,8 @@ std::uint64_t hash_of_body(const Simulation& simulation, std::size_t body) {
   State part;
   part.nodes.assign(all.nodes.begin() + b.node_begin, all.nodes.begin() + b.node_end);
   part.acceleration.assign(all.acceleration.begin() + b.node_begin, all.acceleration.begin() + b.node_end);
-  for (const auto field : {&State::stress_xx, &State::stress_yy, &State::stress_xy, &State::stress_zz,
-                           &State::plastic_strain, &State::plastic_power}) {
+  for (const auto field :
+       {&State::stress_xx, &State::stress_yy, &State::stress_xy, &State::stress_zz, &State::plastic_strain}) {
     (part.*field).assign((all.*field).begin() + b.element_begin, (all.*field).begin() + b.element_end);
   }
   return hash_of(part);

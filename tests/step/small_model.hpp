@@ -5,6 +5,7 @@
 
 #include "udar/mesh/boundary.hpp"
 #include "udar/mesh/generators.hpp"
+#include "udar/mesh/neighbours.hpp"
 #include "udar/mesh/renumber.hpp"
 #include "udar/model/model.hpp"
 
@@ -19,7 +20,7 @@ struct SmallModel {
   double end_time = 1e-3;  ///< s
 };
 
-inline void add_beam(Model& m, const Mesh& mesh, const Tresca& law) {
+inline void add_beam(Model& m, Mesh mesh, const Tresca& law) {
   constexpr double density = 7850;
   const auto nodes = static_cast<Index>(mesh.nodes.size());
   const auto elements = static_cast<Index>(mesh.triangles.size());
@@ -32,6 +33,9 @@ inline void add_beam(Model& m, const Mesh& mesh, const Tresca& law) {
   m.element_count = elements;
   m.rest = mesh.nodes;
   m.node_numbers = mesh.node_numbers;
+  const MeshBlocks cut = cut_blocks(mesh);
+  m.quads = cut.quads;
+  m.element_blocks = cut.blocks;
   m.element_numbers = mesh.triangle_numbers;
   m.element_numbers.resize(body.padded_end);
   m.mass.assign(nodes, 0);
@@ -48,12 +52,12 @@ inline void add_beam(Model& m, const Mesh& mesh, const Tresca& law) {
   m.start_velocity.resize(nodes + padding_nodes);
   m.mass.resize(nodes + padding_nodes, 1);
   m.corners.resize(body.padded_end, {nodes, nodes + 1, nodes + 2});
-  m.area_density.resize(body.padded_end, density * 0.5);
-  for (const double mass : m.mass) m.inverse_mass.push_back(1 / mass);
-  m.node_corners = node_corners(m.rest.size(), m.corners);
-  for (Index e = 0; e < body.padded_end; e += elements_per_block) {
-    m.element_blocks.push_back({e, std::min(e + elements_per_block, body.padded_end), 0});
+  for (Quad& quad : m.quads) {
+    if (quad[0] == none) quad = {nodes, nodes + 1, nodes + 2, nodes};
   }
+  m.area_density.resize(body.padded_end, density * 0.5);
+  m.contact_spring.resize(body.padded_end);
+  for (const double mass : m.mass) m.inverse_mass.push_back(1 / mass);
   for (Index i = 0; i < nodes; i += nodes_per_block)
     m.node_blocks.push_back({i, std::min(i + nodes_per_block, nodes), 0});
   m.bodies.push_back(std::move(body));
@@ -75,13 +79,11 @@ inline void add_stop(Model& m, double stiffness) {
                          .normal_stiffness = std::vector<double>(count, stiffness),
                          .tangential_stiffness = std::vector<double>(count, stiffness)});
   for (Index e = 0; e < m.element_count; ++e) {
-    Model::ContactElement found{.element = e};
     for (const Index corner : m.corners[e]) {
       if (std::binary_search(m.contact_nodes.begin(), m.contact_nodes.end(), corner)) {
-        found.spring = std::max(found.spring, stiffness * m.inverse_mass[corner]);
+        m.contact_spring[e] = std::max(m.contact_spring[e], stiffness * m.inverse_mass[corner]);
       }
     }
-    if (found.spring > 0) m.contact_elements.push_back(found);
   }
 }
 

@@ -1,6 +1,6 @@
 #include "udar/base/error.hpp"
-#include "udar/mesh/node_corners.hpp"
 #include "udar/step/element_kernels.hpp"
+#include "udar/step/stages.hpp"
 #include "wave_tools.hpp"
 
 namespace udar::verification {
@@ -116,6 +116,7 @@ Model one_triangle(const Triangle& t, double speed, double safety) {
   Model model = build_model(load("element-step.toml"));
   Body& body = model.bodies[0];
   model.corners[1] = model.corners[2];  // padding
+  model.quads[1] = model.quads[2];
   model.area_density[1] = model.area_density[2];
   model.element_count = 1;
   body.element_end = body.element_begin + 1;
@@ -136,7 +137,6 @@ Model one_triangle(const Triangle& t, double speed, double safety) {
     if (node == model.corners[0][0] || node == model.corners[0][1] || node == model.corners[0][2]) continue;
     model.start_velocity[node] = {};  // the fourth node belongs to nothing any more
   }
-  model.node_corners = node_corners(model.rest.size(), model.corners);
   model.run.time_step.reset();
   model.run.step_safety = safety;
   model.run.end_time = 1;  // far away: a last step cut short would disturb the count
@@ -262,11 +262,21 @@ TEST_CASE("element-step: one triangle grows above the limit, at the rate of theo
   const double g = 2 * excess * excess - 1;
   const double growth = g + std::sqrt(g * g - 1);  // of the amplitude, per step: mu^2 - (2 - z^2) mu + 1 = 0
   for (const Shape& shape : shapes) {
-    ModelRun run(one_triangle(shape.corners, 1e-14 * c_p, excess));
+    // The stages of a step, with its size in the hands of the check: that of an automatic step may be half a percent
+    // below what it is asked for.
+    const double h = 1e-3 * excess * 2 / std::sqrt(by_kernel(shape.corners, steel));
+    const Model model = one_triangle(shape.corners, 1e-14 * c_p, 1);
+    Workspace work(model, 1);
+    State state = start(model, work);
     std::array<double, 301> energy{};
     for (int n = 0; n <= 300; ++n) {
-      energy[static_cast<std::size_t>(n)] = run.state.ledger.half_step_kinetic;
-      run.step();
+      energy[static_cast<std::size_t>(n)] = state.ledger.half_step_kinetic;
+      advance_clock(model, state);
+      deform_elements(model, state, work);
+      choose_time_step(model, state);
+      state.clock.next_step = h;
+      accelerate_nodes(model, state, work);
+      close_books(model, state, work);
     }
     const double measured = std::pow(energy[300] / energy[200], 0.5 / 100);
     // After 200 steps everything else is 1e-5 of the growing mode in amplitude, 1e-10 in energy; over 100 steps that is

@@ -23,7 +23,7 @@ struct Oscillator {
       : model(build_model(with(kind, start_speed))), work(model, 1), state(rest_state(model)) {
     deform_elements(model, state, work);
     add_contact_force(model, state);
-    choose_time_step(model, state, work);
+    choose_time_step(model, state);
     state.clock.next_step = step;
     open_books(model, state);
     accelerate_nodes(model, state, work);
@@ -38,10 +38,9 @@ struct Oscillator {
   /// One step; the next one will be `next` (s) long.
   void step(double next) {
     advance_clock(model, state);
-    move_nodes(model, state, work);
     deform_elements(model, state, work);
     add_contact_force(model, state);
-    choose_time_step(model, state, work);
+    choose_time_step(model, state);
     state.clock.next_step = next;
     accelerate_nodes(model, state, work);
     close_books(model, state, work);

@@ -319,7 +319,7 @@ void fly(const std::string& name, const Changes& changes, double energy_bound) {
     } else if (touched) {
       if (plastic != last_plastic) {
         last_flow = now.time();
-        work_without_flow |= std::ranges::none_of(now.state.plastic_power, [](double p) { return p > 0; });
+        work_without_flow |= std::ranges::none_of(now.state.flowing, [](std::uint8_t byte) { return byte != 0; });
       }
       if (now.state.clock.step % 100 == 0) {
         const double t = now.time() - separation;

@@ -104,7 +104,7 @@ TEST_CASE("simple-shear: perfectly plastic") {
     for (int n = 1; n <= steps; ++n) {
       run.step();
       const double radius = std::hypot(0.5 * (s.stress_xx[0] - s.stress_yy[0]), s.stress_xy[0]);
-      if (s.plastic_power[0] > 0) off_surface = std::max(off_surface, std::fabs(radius / k - 1));
+      if (flows(s, 0)) off_surface = std::max(off_surface, std::fabs(radius / k - 1));
       out_of_plane = std::max({out_of_plane, std::fabs(s.stress_zz[0]), std::fabs(s.stress_xx[0] + s.stress_yy[0])});
       largest_shear = std::max(largest_shear, std::fabs(s.stress_xy[0]));
     }

@@ -22,11 +22,21 @@ namespace udar {
 [[gnu::always_inline]] inline double select(bool mask, double a, double b) { return mask ? a : b; }
 [[gnu::always_inline]] inline double larger(double a, double b) { return a > b ? a : b; }
 [[gnu::always_inline]] inline double smaller(double a, double b) { return a < b ? a : b; }
+[[gnu::always_inline]] inline bool either(bool a, bool b) { return a || b; }
+/// Does the mask hold in any lane?
+[[gnu::always_inline]] inline bool any(bool mask) { return mask; }
 
 namespace UDAR_ISA {
 
+using udar::any;
+using udar::either;
+using udar::larger;
+using udar::select;
+using udar::smaller;
+
 /// As many doubles as one vector register holds. GCC's and clang's vector extension: not left to the compiler's own
-/// vectoriser, which gives up on loops as long as ours without saying so.
+/// vectoriser, which gives up on loops as long as ours without saying so. Comparisons, `larger` and `sqrt` are named
+/// instructions, since g++ 12 makes several of each out of the extension's.
 struct Pack {
 #if defined(__AVX512F__)
   static constexpr int lanes = 8;
@@ -36,7 +46,6 @@ struct Pack {
   static constexpr int lanes = 2;
 #endif
   using Vector = double __attribute__((vector_size(lanes * sizeof(double))));
-  using Mask = decltype(Vector{} > Vector{});
   Vector v;
 
   Pack() = default;
@@ -56,25 +65,67 @@ struct Pack {
   friend Pack operator*(Pack a, Pack b) { return a.v * b.v; }
   friend Pack operator/(Pack a, Pack b) { return a.v / b.v; }
   friend Pack operator-(Pack a) { return -a.v; }
-  friend Mask operator>(Pack a, Pack b) { return a.v > b.v; }
-  friend Mask operator<(Pack a, Pack b) { return a.v < b.v; }
+};
 
-  friend Pack select(Mask mask, Pack a, Pack b) { return mask ? a.v : b.v; }
-  friend Pack larger(Pack a, Pack b) { return a.v > b.v ? a.v : b.v; }
-  friend Pack smaller(Pack a, Pack b) { return a.v < b.v ? a.v : b.v; }
-  friend Pack fabs(Pack a) { return a.v < 0 ? -a.v : a.v; }
-  friend Pack sqrt(Pack a) {
 #if defined(__AVX512F__)
-    return Vector(_mm512_sqrt_pd(a.v));
-#elif defined(__AVX2__)
-    return Vector(_mm256_sqrt_pd(a.v));
-#elif defined(__SSE2__)
-    return Vector(_mm_sqrt_pd(a.v));
+
+struct Mask {
+  __mmask8 lanes;
+
+  friend Mask either(Mask a, Mask b) { return {static_cast<__mmask8>(a.lanes | b.lanes)}; }
+  friend bool any(Mask m) { return m.lanes != 0; }
+  /// Bit i is lane i.
+  friend unsigned bits(Mask m) { return m.lanes; }
+};
+inline Mask operator>(Pack a, Pack b) { return {_mm512_cmp_pd_mask(a.v, b.v, _CMP_GT_OQ)}; }
+inline Mask operator<(Pack a, Pack b) { return {_mm512_cmp_pd_mask(a.v, b.v, _CMP_LT_OQ)}; }
+inline Pack select(Mask m, Pack a, Pack b) { return Pack::Vector(_mm512_mask_blend_pd(m.lanes, b.v, a.v)); }
+inline Pack larger(Pack a, Pack b) { return Pack::Vector(_mm512_max_pd(a.v, b.v)); }
+inline Pack smaller(Pack a, Pack b) { return Pack::Vector(_mm512_min_pd(a.v, b.v)); }
+inline Pack fabs(Pack a) { return Pack::Vector(_mm512_abs_pd(a.v)); }
+inline Pack sqrt(Pack a) { return Pack::Vector(_mm512_sqrt_pd(a.v)); }
+
 #else
-    return Vector{std::sqrt(a.v[0]), std::sqrt(a.v[1])};
+
+struct Mask {
+  Pack::Vector lanes;  ///< all bits of a lane, or none
+
+  friend Mask either(Mask a, Mask b) {
+    using Bits = decltype(Pack::Vector{} > Pack::Vector{});
+    return {Pack::Vector(Bits(a.lanes) | Bits(b.lanes))};
+  }
+  friend bool any(Mask m) { return bits(m) != 0; }
+  /// Bit i is lane i.
+  friend unsigned bits(Mask m) {
+#if defined(__AVX2__)
+    return static_cast<unsigned>(_mm256_movemask_pd(m.lanes));
+#elif defined(__SSE2__)
+    return static_cast<unsigned>(_mm_movemask_pd(m.lanes));
+#else
+    const auto lane = decltype(Pack::Vector{} > Pack::Vector{})(m.lanes);
+    return static_cast<unsigned>((lane[0] & 1) | (lane[1] & 2));
 #endif
   }
 };
+inline Mask operator>(Pack a, Pack b) { return {Pack::Vector(a.v > b.v)}; }
+inline Mask operator<(Pack a, Pack b) { return {Pack::Vector(a.v < b.v)}; }
+inline Pack select(Mask m, Pack a, Pack b) { return decltype(Pack::Vector{} > Pack::Vector{})(m.lanes) ? a.v : b.v; }
+inline Pack fabs(Pack a) { return a.v < 0 ? -a.v : a.v; }
+#if defined(__AVX2__)
+inline Pack larger(Pack a, Pack b) { return Pack::Vector(_mm256_max_pd(a.v, b.v)); }
+inline Pack smaller(Pack a, Pack b) { return Pack::Vector(_mm256_min_pd(a.v, b.v)); }
+inline Pack sqrt(Pack a) { return Pack::Vector(_mm256_sqrt_pd(a.v)); }
+#elif defined(__SSE2__)
+inline Pack larger(Pack a, Pack b) { return Pack::Vector(_mm_max_pd(a.v, b.v)); }
+inline Pack smaller(Pack a, Pack b) { return Pack::Vector(_mm_min_pd(a.v, b.v)); }
+inline Pack sqrt(Pack a) { return Pack::Vector(_mm_sqrt_pd(a.v)); }
+#else
+inline Pack larger(Pack a, Pack b) { return a.v > b.v ? a.v : b.v; }
+inline Pack smaller(Pack a, Pack b) { return a.v < b.v ? a.v : b.v; }
+inline Pack sqrt(Pack a) { return Pack::Vector{std::sqrt(a.v[0]), std::sqrt(a.v[1])}; }
+#endif
+
+#endif
 
 }  // namespace UDAR_ISA
 

@@ -8,6 +8,7 @@
 #include "udar/base/error.hpp"
 #include "udar/case/build_parts.hpp"
 #include "udar/mesh/boundary.hpp"
+#include "udar/mesh/neighbours.hpp"
 #include "udar/mesh/renumber.hpp"
 
 namespace udar {
@@ -21,9 +22,9 @@ const MaterialCase& material_of(const Case& input, const BodyCase& body) {
                   fmt::format("body `{}` asks for material `{}`, which is not there", body.name, body.material));
 }
 
-/// Appends a body's mesh to the model's arrays. Elements are padded to whole vectors with the padding triangle, whose
-/// corners are set when the number of nodes is known.
-void append_body(Model& model, const BodyCase& from, const MaterialCase& material, const Mesh& mesh) {
+/// Appends a body's mesh to the model's arrays, block by block. Elements are padded to whole vectors with the padding
+/// triangle, whose corners are set when the number of nodes is known.
+void append_body(Model& model, const BodyCase& from, const MaterialCase& material, Mesh& mesh) {
   const auto nodes = static_cast<Index>(mesh.nodes.size());
   const auto elements = static_cast<Index>(mesh.triangles.size());
   Body body{.name = from.name,
@@ -35,6 +36,7 @@ void append_body(Model& model, const BodyCase& from, const MaterialCase& materia
             .element_begin = static_cast<Index>(model.corners.size())};
   body.element_end = body.element_begin + elements;
   body.padded_end = (body.element_end + lanes - 1) / lanes * lanes;
+  const MeshBlocks cut = cut_blocks(mesh);
   const auto shifted = [&](Edge e) { return Edge{e.a + body.node_begin, e.b + body.node_begin}; };
   for (const Edge& e : boundary_edges(mesh)) body.boundary.push_back(shifted(e));
   for (const NamedEdges& side : mesh.sides) {
@@ -54,9 +56,21 @@ void append_body(Model& model, const BodyCase& from, const MaterialCase& materia
     for (const Index corner : model.corners.back()) model.mass[corner] += mass / 3;
   }
   model.element_numbers.insert(model.element_numbers.end(), mesh.triangle_numbers.begin(), mesh.triangle_numbers.end());
+  const auto first_quad = static_cast<Index>(model.quads.size());
+  for (Quad quad : cut.quads) {
+    for (Index& node : quad) node = node == none ? none : node + body.node_begin;
+    model.quads.push_back(quad);
+  }
+  for (ElementBlock block : cut.blocks) {
+    block.begin += body.element_begin;
+    block.end += body.element_begin;
+    block.quads += first_quad;
+    block.body = static_cast<Index>(model.bodies.size());
+    model.element_blocks.push_back(block);
+  }
   model.element_numbers.resize(body.padded_end);
   model.area_density.resize(body.padded_end, body.density);
-  model.corners.resize(body.padded_end, {~Index{0}, ~Index{0}, ~Index{0}});
+  model.corners.resize(body.padded_end, {none, none, none});
   model.node_count += nodes;
   model.element_count += elements;
   model.bodies.push_back(std::move(body));
@@ -90,7 +104,10 @@ void add_padding(Model& model) {
   model.start_velocity.resize(model.rest.size());
   model.mass.resize(model.rest.size(), 1);
   for (auto& corners : model.corners) {
-    if (corners[0] == ~Index{0}) corners = {first, first + 1, first + 2};
+    if (corners[0] == none) corners = {first, first + 1, first + 2};
+  }
+  for (Quad& quad : model.quads) {
+    if (quad[0] == none) quad = {first, first + 1, first + 2, first};
   }
   for (const Body& body : model.bodies) {
     for (Index e = body.element_end; e < body.padded_end; ++e) {
@@ -99,12 +116,9 @@ void add_padding(Model& model) {
   }
 }
 
-void cut_blocks(Model& model) {
+void cut_node_blocks(Model& model) {
   for (Index b = 0; b < model.bodies.size(); ++b) {
     const Body& body = model.bodies[b];
-    for (Index e = body.element_begin; e < body.padded_end; e += elements_per_block) {
-      model.element_blocks.push_back({e, std::min(e + elements_per_block, body.padded_end), b});
-    }
     for (Index i = body.node_begin; i < body.node_end; i += nodes_per_block) {
       model.node_blocks.push_back({i, std::min(i + nodes_per_block, body.node_end), b});
     }
@@ -136,8 +150,7 @@ Model build_model(const Case& input) {
   }
   add_padding(model);
   for (const double mass : model.mass) model.inverse_mass.push_back(1 / mass);
-  model.node_corners = node_corners(model.rest.size(), model.corners);
-  cut_blocks(model);
+  cut_node_blocks(model);
 
   add_obstacles(model, input);
   add_supports(model, input, meshes);

@@ -3,6 +3,7 @@
 #include <unordered_map>
 
 #include "udar/case/build_parts.hpp"
+#include "udar/mesh/node_corners.hpp"
 
 namespace udar {
 namespace {
@@ -15,8 +16,8 @@ struct ContactNode {
 };
 
 /// Height over its boundary edge of the element that has it, m. The element is found among those of node `a`.
-double element_height(const Model& model, Edge edge) {
-  for (const std::uint32_t corner : model.node_corners.of(edge.a)) {
+double element_height(const Model& model, const NodeCorners& at_nodes, Edge edge) {
+  for (const std::uint32_t corner : at_nodes.of(edge.a)) {
     const auto& t = model.corners[corner / 3];
     if (std::find(t.begin(), t.end(), edge.b) == t.end()) continue;
     const double area = twice_area(model.rest[t[0]], model.rest[t[1]], model.rest[t[2]]);
@@ -28,6 +29,7 @@ double element_height(const Model& model, Edge edge) {
 /// Automatic stiffness: (lambda + 2 G) t times tributary edge length over element height, so that a spring is as stiff
 /// as the element behind it.
 std::vector<ContactNode> contact_nodes(const Model& model) {
+  const NodeCorners at_nodes = node_corners(model.rest.size(), model.corners);
   std::vector<ContactNode> found;
   for (const Body& body : model.bodies) {
     std::unordered_map<Index, std::size_t> place;
@@ -35,7 +37,7 @@ std::vector<ContactNode> contact_nodes(const Model& model) {
         std::visit([](const auto& law) { return law.elasticity().wave_modulus(); }, body.law) * body.thickness;
     for (const Edge& edge : body.boundary) {
       const double edge_length = length(model.rest[edge.b] - model.rest[edge.a]);
-      const double stiffness = modulus * 0.5 * edge_length / element_height(model, edge);
+      const double stiffness = modulus * 0.5 * edge_length / element_height(model, at_nodes, edge);
       for (const Index node : {edge.a, edge.b}) {
         const auto [at, fresh] = place.try_emplace(node, found.size());
         if (fresh) found.push_back({.node = node});
@@ -62,14 +64,14 @@ void limit_steps(Model& model) {
       dashpot[node] += 2 * model.contact.damping * std::sqrt(obstacle.normal_stiffness[c] * model.inverse_mass[node]);
     }
   }
-  for (const Body& body : model.bodies) {
-    for (Index e = body.element_begin; e < body.element_end; ++e) {
-      Model::ContactElement found{.element = e};
+  model.contact_spring.assign(model.corners.size(), 0);
+  for (ElementBlock& block : model.element_blocks) {
+    for (Index e = block.begin; e < block.end; ++e) {
       for (const Index corner : model.corners[e]) {
-        found.spring = std::max(found.spring, spring[corner]);
-        found.dashpot = std::max(found.dashpot, dashpot[corner]);
+        if (corner >= model.node_count) continue;
+        model.contact_spring[e] = std::max(model.contact_spring[e], spring[corner]);
+        block.dashpot = std::max(block.dashpot, dashpot[corner]);
       }
-      if (found.spring > 0) model.contact_elements.push_back(found);
     }
   }
 }

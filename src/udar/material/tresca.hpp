@@ -34,15 +34,23 @@ struct Tresca {
 
   /// Returns the trial stress to the yield surface along its normal. All principal stresses end between two bounds
   /// yield_stress apart: those of the face crossed by the largest difference or, where the middle one would then lie
-  /// outside, those of the edge where it equals one of the others. Written without branches so that it vectorises.
+  /// outside, those of the edge where it equals one of the others. Without branches, but for a way out where no lane
+  /// flows: most elements are elastic at most times.
   template <class Real>
   Corrected<Real> correct(const SymTensor<Real>& trial) const {
+    using std::fabs;
     using std::sqrt;
     const Real y(yield_stress);
     const Real third(1.0 / 3.0);
     const Real centre = Real(0.5) * (trial.xx + trial.yy);
     const Real half_difference = Real(0.5) * (trial.xx - trial.yy);
-    const Real radius = sqrt(half_difference * half_difference + trial.xy * trial.xy);
+    const Real radius_squared = half_difference * half_difference + trial.xy * trial.xy;
+    // In the plane p1 - p2 = 2 r; with the third one the largest difference is r + |centre - p3|.
+    const Real elastic_radius = smaller(Real(0.5) * y, y - fabs(centre - trial.zz));
+    const auto flows = either(radius_squared > elastic_radius * elastic_radius, elastic_radius < Real(0));
+    if (!any(flows)) return {trial, Real(0), flows};
+
+    const Real radius = sqrt(radius_squared);
     const Real p1 = centre + radius;
     const Real p2 = centre - radius;
     const Real p3 = trial.zz;
@@ -55,13 +63,10 @@ struct Tresca {
     const Real upper_edge = third * (sum + y) - y;           // largest and middle equal
     const Real lower_edge = third * (sum - y);               // middle and smallest equal
     const Real bound = select(middle > face + y, upper_edge, select(middle < face, lower_edge, face));
-    const auto flows = largest - smallest > y;
-    const Real low = select(flows, bound, smallest);
-    const Real high = select(flows, bound + y, largest);
 
-    const Real q1 = smaller(larger(p1, low), high);
-    const Real q2 = smaller(larger(p2, low), high);
-    const Real q3 = smaller(larger(p3, low), high);
+    const Real q1 = smaller(larger(p1, bound), bound + y);
+    const Real q2 = smaller(larger(p2, bound), bound + y);
+    const Real q3 = smaller(larger(p3, bound), bound + y);
     const Real safe_radius = select(radius > Real(0), radius, Real(1));
     const Real shrink = Real(0.5) * (q1 - q2) / safe_radius;
     const Real new_centre = Real(0.5) * (q1 + q2);
@@ -70,7 +75,8 @@ struct Tresca {
     return {{select(flows, new_centre + shrink * half_difference, trial.xx),
              select(flows, new_centre - shrink * half_difference, trial.yy), select(flows, shrink * trial.xy, trial.xy),
              select(flows, q3, trial.zz)},
-            select(flows, work, Real(0))};
+            select(flows, work, Real(0)),
+            flows};
   }
   /// Equivalent plastic strain that goes with plastic work per volume (work-conjugate: work / yield stress), m3/J.
   [[nodiscard, gnu::always_inline]] double plastic_strain_of_work() const { return 1 / yield_stress; }

@@ -8,8 +8,7 @@
 #include "udar/base/time_table.hpp"
 #include "udar/contact/shapes.hpp"
 #include "udar/material/laws.hpp"
-#include "udar/mesh/mesh.hpp"
-#include "udar/mesh/node_corners.hpp"
+#include "udar/mesh/blocks.hpp"
 #include "udar/model/settings.hpp"
 
 namespace udar {
@@ -33,13 +32,6 @@ struct Body {
   std::vector<NamedEdges> sides;
 };
 
-/// A stretch of elements of one body, the unit of work of the element sweep and of its fixed order of sums.
-struct ElementBlock {
-  Index begin = 0;
-  Index end = 0;
-  Index body = 0;
-};
-
 /// A stretch of nodes of one body.
 struct NodeBlock {
   Index begin = 0;
@@ -47,9 +39,6 @@ struct NodeBlock {
   Index body = 0;
 };
 
-inline constexpr Index elements_per_block = 128;
-inline constexpr Index nodes_per_block = 256;
-inline constexpr Index lanes = 8;          ///< element arrays are padded to this
 inline constexpr Index padding_nodes = 3;  ///< corners of the padding triangle, after the last node
 
 /// A rigid obstacle and the springs between it and the nodes that may touch it.
@@ -136,25 +125,19 @@ struct Model {
   std::vector<double> mass;          ///< kg
   std::vector<double> inverse_mass;  ///< 1/kg
   std::vector<Index> node_numbers;   ///< the user's numbers, from 0 in each body
-  NodeCorners node_corners;          ///< which corner forces a node sums, in element order
 
   // Elements, padded.
   Index element_count = 0;  ///< without padding
   std::vector<std::array<Index, 3>> corners;
+  std::vector<Quad> quads;             ///< the same corners as the element sweep reads them, block by block
   std::vector<double> area_density;    ///< kg/m: density x undeformed area, constant since masses are
+  std::vector<double> contact_spring;  ///< 1/s2: what contact springs at its nodes add to an element's frequency^2
   std::vector<Index> element_numbers;  ///< the user's numbers
 
   // Contact: the outer nodes of all bodies may touch every obstacle.
   std::vector<Index> contact_nodes;
   std::vector<double> contact_node_sizes;  ///< m, mean length of the two boundary edges at the node
   std::vector<Obstacle> obstacles;
-  /// Elements with a contact node and what springs (1/s2) and dashpots (1/s) add to their stable limit.
-  struct ContactElement {
-    Index element = 0;
-    double spring = 0;
-    double dashpot = 0;
-  };
-  std::vector<ContactElement> contact_elements;
 
   std::vector<Support> supports;
   std::vector<Load> loads;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "udar/base/vec2.hpp"
@@ -33,6 +34,23 @@ struct StepLimit {
   std::uint32_t by_contact = 0;  ///< 1 where contact springs lower the element's limit
 };
 
+/// Sums over the nodes of a body at t_n.
+struct BodySums {
+  Vec2 position{};  ///< kg m, of m x
+  Vec2 momentum{};  ///< kg m/s, of m v
+  Vec2 force{};     ///< N, of m a
+  double spin = 0;  ///< kg m2/s, of m x cross v
+};
+
+/// The largest frequency of a block of elements, contact springs included. It is computed now and then; in between it
+/// may have grown by what the elements were stretched at most.
+struct FrequencyBound {
+  double squared = std::numeric_limits<double>::infinity();  ///< 1/s2, never below the block's largest
+  double computed = 0;                                       ///< 1/s2, the largest when it was last computed
+  Index element = 0;                                         ///< that had it
+  std::uint32_t unused = 0;
+};
+
 struct Clock {
   CompensatedSum time;             ///< s, t_n
   std::uint64_t step = 0;          ///< n
@@ -42,7 +60,8 @@ struct Clock {
   double next_step = 0;            ///< s, h_{n+1}
   std::uint64_t next_is_last = 0;  ///< 1 where the next step ends on the end time
   double planned_step = 0;         ///< s, the last one chosen, before it was fitted to the end time
-  StepLimit limit;                 ///< at t_n
+  StepLimit limit;                 ///< at t_n, at most half a percent below the exact one
+  double compute_above = 0;        ///< 1/s2: a block whose bound is above computes its frequency in the next step
   double start_limit = 0;          ///< s, stable limit at t = 0
   StepLimit tightest;              ///< smallest stable limit so far, and what set it
   double tightest_time = 0;        ///< s
@@ -75,13 +94,15 @@ struct State {
   std::vector<double> stress_xy;
   std::vector<double> stress_zz;
   std::vector<double> plastic_strain;
-  std::vector<double> plastic_power;  ///< J/m3 in the last step: above 0 where the element flows now
+  std::vector<std::uint8_t> flowing;      ///< bit e % 8 of byte e / 8: element e flowed in the last step
+  std::vector<FrequencyBound> frequency;  ///< one for each block of elements
 
   std::vector<SpringState> contacts;  ///< obstacle by obstacle, one for each contact node
   std::vector<ObstacleBook> obstacles;
   std::vector<Vec2> load_forces;     ///< N, load by load, node by node
   std::vector<Vec2> support_forces;  ///< N, support by support, node by node
   std::vector<Vec2> body_momentum;   ///< kg m/s, one for each body: sum of m times the velocity over the coming step
+  std::vector<BodySums> body_sums;   ///< one for each body
   double largest_penetration = 0;    ///< over the mean length of the boundary edges at the node
   Ledger ledger;
 };
@@ -92,6 +113,9 @@ inline Vec2 velocity(const State& state, Index node) {
   const NodeRecord& r = state.nodes[node];
   return Vec2{r.vx, r.vy} - (0.5 * state.clock.next_step) * state.acceleration[node];
 }
+
+/// Did this element flow in the last step?
+inline bool flows(const State& state, Index element) { return (state.flowing[element / 8] >> element % 8 & 1) != 0; }
 
 /// Names every array of the state once: for hashing its bits, finding what is not a number, counting memory, saving.
 template <class S, class Visitor>
@@ -109,12 +133,14 @@ void for_each_field(S& state, Visitor&& visit) {
   visit("stress_xy", state.stress_xy);
   visit("stress_zz", state.stress_zz);
   visit("plastic_strain", state.plastic_strain);
-  visit("plastic_power", state.plastic_power);
+  visit("flowing", state.flowing);
+  visit("frequency", state.frequency);
   visit("contacts", state.contacts);
   visit("obstacles", state.obstacles);
   visit("load_forces", state.load_forces);
   visit("support_forces", state.support_forces);
   visit("body_momentum", state.body_momentum);
+  visit("body_sums", state.body_sums);
   visit("largest_penetration", state.largest_penetration);
   visit("ledger", state.ledger);
 }

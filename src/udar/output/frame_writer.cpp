@@ -85,7 +85,7 @@ void add_cell_fields(const Model& model, const State& state, VtuGrid& grid) {
          [&](Index e) { return -(state.stress_xx[e] + state.stress_yy[e] + state.stress_zz[e]) / 3; });
   scalar("plastic_strain", "", [&](Index e) { return state.plastic_strain[e]; });
   out.push_back(flag_field("flows_now", for_elements<std::uint8_t>(model, [&](std::size_t, Index e) {
-                             return static_cast<std::uint8_t>(state.plastic_power[e] > 0);
+                             return static_cast<std::uint8_t>(flows(state, e));
                            })));
   out.push_back(number_field("element_number", for_elements<std::int32_t>(model, [&](std::size_t, Index e) {
                                return static_cast<std::int32_t>(model.element_numbers[e]);

@@ -28,7 +28,7 @@ Observer observe_element(const Model& model, const ElementObserver& element);
 /// Nodes taken together: centre of mass, its velocity and acceleration (sum of forces over mass, unfiltered), momentum,
 /// spin momentum about the centre of mass.
 Observer observe_region(const Model& model, const RegionObserver& region);
-Observer observe_body(const Model& model, const Body& body);
+Observer observe_body(const Model& model, std::size_t number);
 /// Force and impulse of an obstacle on the bodies, and how many nodes touch.
 Observer observe_obstacle(const Model& model, std::size_t obstacle);
 /// Sum of the reactions at a support.

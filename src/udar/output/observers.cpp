@@ -22,23 +22,22 @@ struct Together {
   double spin = 0;      // kg m2/s, about the centre of mass
 };
 
-/// Of `count` nodes; number k is `node(k)`.
-template <class Node>
-Together together(const Model& model, const State& state, std::size_t count, const Node& node, double mass) {
-  Together sum;
-  for (std::size_t k = 0; k < count; ++k) {
-    const Index i = node(k);
+Together together(const BodySums& sums, double mass) {
+  const Vec2 centre = (1 / mass) * sums.position;
+  return {centre, sums.momentum, (1 / mass) * sums.force, sums.spin - cross(centre, sums.momentum)};
+}
+
+BodySums sum_nodes(const Model& model, const State& state, const std::vector<Index>& nodes) {
+  BodySums sums;
+  for (const Index i : nodes) {
     const Vec2 x = place(state, i);
     const Vec2 p = model.mass[i] * velocity(state, i);
-    sum.position += model.mass[i] * x;
-    sum.momentum += p;
-    sum.acceleration += model.mass[i] * state.acceleration[i];
-    sum.spin += cross(x, p);
+    sums.position += model.mass[i] * x;
+    sums.momentum += p;
+    sums.force += model.mass[i] * state.acceleration[i];
+    sums.spin += cross(x, p);
   }
-  sum.position *= 1 / mass;
-  sum.acceleration *= 1 / mass;
-  sum.spin -= cross(sum.position, sum.momentum);
-  return sum;
+  return sums;
 }
 
 const std::vector<Column> together_columns{
@@ -115,22 +114,21 @@ Observer observe_element(const Model&, const ElementObserver& element) {
                                     p[2],
                                     0.5 * (p[0] - p[2]),
                                     state.plastic_strain[e],
-                                    state.plastic_power[e] > 0 ? 1.0 : 0.0};
+                                    flows(state, e) ? 1.0 : 0.0};
             std::copy(values.begin(), values.end(), out.begin());
           }};
 }
 
 Observer observe_region(const Model& model, const RegionObserver& region) {
   return {region.name, together_columns, region.window, [&model, &region](const State& state, std::span<double> out) {
-            const auto node = [&](std::size_t k) { return region.nodes[k]; };
-            fill(together(model, state, region.nodes.size(), node, region.mass), region.mass, out);
+            fill(together(sum_nodes(model, state, region.nodes), region.mass), region.mass, out);
           }};
 }
 
-Observer observe_body(const Model& model, const Body& body) {
-  return {body.name, together_columns, always, [&model, &body](const State& state, std::span<double> out) {
-            const auto node = [&](std::size_t k) { return body.node_begin + static_cast<Index>(k); };
-            fill(together(model, state, body.node_end - body.node_begin, node, body.mass), body.mass, out);
+Observer observe_body(const Model& model, std::size_t number) {
+  const Body& body = model.bodies[number];
+  return {body.name, together_columns, always, [&body, number](const State& state, std::span<double> out) {
+            fill(together(state.body_sums[number], body.mass), body.mass, out);
           }};
 }
 
@@ -172,7 +170,7 @@ std::vector<Observer> make_observers(const Model& model) {
   for (const NodeObserver& node : model.observed_nodes) all.push_back(observe_node(model, node));
   for (const ElementObserver& element : model.observed_elements) all.push_back(observe_element(model, element));
   for (const RegionObserver& region : model.observed_regions) all.push_back(observe_region(model, region));
-  for (const Body& body : model.bodies) all.push_back(observe_body(model, body));
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) all.push_back(observe_body(model, b));
   for (std::size_t o = 0; o < model.obstacles.size(); ++o) all.push_back(observe_obstacle(model, o));
   for (std::size_t s = 0; s < model.supports.size(); ++s) all.push_back(observe_support(model, s));
   tell_apart(all);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "udar/step/motion.hpp"
 #include "udar/step/stages.hpp"
 
 namespace udar {
@@ -26,7 +27,7 @@ ObstacleSums touch_obstacle(const Model& model, State& state, const Obstacle& ob
   for (std::size_t c = 0; c < model.contact_nodes.size(); ++c) {
     const Index node = model.contact_nodes[c];
     const NodeRecord& record = state.nodes[node];
-    const Vec2 place = Vec2{record.x, record.y} - moved;
+    const Vec2 place = place_after(record, h) - moved;
     if (springs[c].touches == 0 && !obstacle.bounds.holds(place)) continue;
 
     const ContactSprings stiffness{obstacle.normal_stiffness[c], obstacle.tangential_stiffness[c], obstacle.friction,

@@ -1,9 +1,10 @@
+#include "udar/step/motion.hpp"
 #include "udar/step/stages.hpp"
 
 namespace udar {
 namespace {
 
-Vec2 place(const State& state, Index node) { return {state.nodes[node].x, state.nodes[node].y}; }
+Vec2 place(const State& state, Index node) { return place_after(state.nodes[node], state.clock.last_step); }
 
 }  // namespace
 

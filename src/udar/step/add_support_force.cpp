@@ -19,9 +19,8 @@ void add_support_force(const Model& model, State& state, Workspace& work) {
       const Vec2 before{record.vx, record.vy};
       const Vec2 rest = model.rest[node];
       const Vec2 target = support.turns ? support.centre + turn * (rest - support.centre) : rest + displacement;
-      const Vec2 wanted = (1 / clock.next_step) * (target - Vec2{record.x, record.y});
-      const Vec2 force = internal_force(model, work, node) + state.external[node] +
-                         model.mass[node] * model.run.gravity +
+      const Vec2 wanted = (1 / clock.next_step) * (target - place_after(record, clock.last_step));
+      const Vec2 force = work.forces.sum(node) + state.external[node] + model.mass[node] * model.run.gravity +
                          damping_force(model, state, node, rate, damping_reference(model, state, support.body));
       const Vec2 reaction = (model.mass[node] / span) * (wanted - before) - force;
       Vec2& held = state.support_forces[first + k];

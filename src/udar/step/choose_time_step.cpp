@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "udar/base/error.hpp"
-#include "udar/step/element_kernels.hpp"
 #include "udar/step/failure.hpp"
 #include "udar/step/integrators.hpp"
 #include "udar/step/motion.hpp"
@@ -17,54 +16,39 @@ namespace {
 /// Over the end time: with shorter steps a run would never end.
 constexpr double shortest_step = 1e-12;
 
-double frequency_squared(const Model& model, const State& state, Index element) {
-  const auto& corners = model.corners[element];
-  const NodeRecord& a = state.nodes[corners[0]];
-  const NodeRecord& b = state.nodes[corners[1]];
-  const NodeRecord& c = state.nodes[corners[2]];
-  const Sides<double> sides{b.x - a.x, b.y - a.y, c.x - a.x, c.y - a.y};
-  const Elasticity elasticity =
-      std::visit([](const auto& law) { return law.elasticity(); }, model.body_of_element(element).law);
-  return eigenfrequency_squared(sides, elasticity, model.area_density[element]);
-}
-
 /// Largest stable step with frequency^2 `w2` and a dashpot of `c` (1/s) whose force is half a step late: from
 /// (h^2 w2 + 2 h c) = 4 for central difference, scaled for integrators with another limit on w h.
 double stable_step(double w2, double c, double limit) { return 0.5 * limit * (std::sqrt(c * c + 4 * w2) - c) / w2; }
 
-/// The element of a block that has the block's largest frequency.
-Index stiffest_element(const Model& model, const State& state, const ElementBlock& block) {
-  Index stiffest = block.begin;
-  double largest = 0;
-  for (Index e = block.begin; e < block.end; ++e) {
-    const double w2 = frequency_squared(model, state, e);
-    if (w2 > largest) {
-      largest = w2;
-      stiffest = e;
-    }
-  }
-  return stiffest;
-}
-
-StepLimit stable_limit(const Model& model, const State& state, const Workspace& work) {
+StepLimit stable_limit(const Model& model, const State& state) {
   // An integrator that is never stable is judged by the limit of central difference.
   const double rule_limit = rule_of(model.run.integrator).stable_limit;
   const double limit = rule_limit > 0 ? rule_limit : 2;
   const double damping = damping_rate(model, state);
 
-  std::size_t stiffest = 0;
-  for (std::size_t b = 1; b < work.element_sums.size(); ++b) {
-    if (work.element_sums[b].frequency_squared > work.element_sums[stiffest].frequency_squared) stiffest = b;
+  StepLimit found{.size = std::numeric_limits<double>::infinity()};
+  double w2 = 0;
+  double dashpot = 0;
+  for (std::size_t b = 0; b < model.element_blocks.size(); ++b) {
+    const FrequencyBound& bound = state.frequency[b];
+    const double own_dashpot = model.element_blocks[b].dashpot;
+    if (bound.squared <= w2 && own_dashpot <= dashpot) continue;
+    const double size = stable_step(bound.squared, damping + own_dashpot, limit);
+    if (!(size < found.size)) continue;
+    w2 = bound.squared;
+    dashpot = own_dashpot;
+    found = {.size = size, .element = bound.element, .by_contact = model.contact_spring[bound.element] > 0 ? 1U : 0U};
   }
-  StepLimit found{.size = stable_step(work.element_sums[stiffest].frequency_squared, damping, limit),
-                  .element = std::numeric_limits<Index>::max()};
-  for (const auto& contact : model.contact_elements) {
-    const double w2 = frequency_squared(model, state, contact.element) + contact.spring;
-    const double size = stable_step(w2, damping + contact.dashpot, limit);
-    if (size < found.size) found = {.size = size, .element = contact.element, .by_contact = 1};
-  }
-  if (found.by_contact == 0) found.element = stiffest_element(model, state, model.element_blocks[stiffest]);
   return found;
+}
+
+/// Blocks whose bound rises above this compute their frequency: the step is then at most half a percent smaller than
+/// it might be, and of a block that is not among the stiffest hardly anything has to be computed.
+double next_threshold(const State& state) {
+  constexpr double slack = 1.01;
+  double largest = 0;
+  for (const FrequencyBound& bound : state.frequency) largest = std::max(largest, bound.computed);
+  return slack * largest;
 }
 
 /// What the case asks for: a fixed step, as far as it is stable or the case insists, or a part of the stable limit.
@@ -124,9 +108,10 @@ void refuse_unusable_step(const Model& model, const State& state) {
 
 }  // namespace
 
-void choose_time_step(const Model& model, State& state, Workspace& work) {
+void choose_time_step(const Model& model, State& state) {
   Clock& clock = state.clock;
-  clock.limit = stable_limit(model, state, work);
+  clock.limit = stable_limit(model, state);
+  clock.compute_above = next_threshold(state);
   if (clock.step == 0) {
     refuse_unusable_step(model, state);
     clock.start_limit = clock.limit.size;

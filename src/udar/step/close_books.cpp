@@ -127,7 +127,7 @@ NodeSums total_of_nodes(const Model& model, State& state, const Workspace& work)
     total.damping_before += sums.damping_before;
     total.damping_after += sums.damping_after;
     total.damping_force += sums.damping_force;
-    total.spin += sums.spin;
+    total.spin_after += sums.spin_after;
     total.carried += sums.carried;
     total.momentum += sums.momentum;
     state.body_momentum[model.node_blocks[b].body] += sums.carried;
@@ -164,10 +164,11 @@ void close_books(const Model& model, State& state, Workspace& work) {
 
   ledger.kinetic_energy = 0.5 * (nodes.kinetic + work.held_kinetic);
   ledger.half_step_kinetic = 0.5 * nodes.kinetic_after;
-  ledger.momentum = nodes.momentum + work.held_momentum;
+  const bool half_steps = rule_of(model.run.integrator).weights == nullptr;
+  ledger.momentum = half_steps ? nodes.carried : nodes.momentum + work.held_momentum;
   ledger.book(ForceKind::support).impulse_x.add(work.held_momentum.x);
   ledger.book(ForceKind::support).impulse_y.add(work.held_momentum.y);
-  ledger.spin = nodes.spin;
+  ledger.spin = nodes.spin_after;
 
   const Vec2 weight = total_mass(model) * model.run.gravity;
   const Account gravity{weight, dot(model.run.gravity, ledger.carried), dot(model.run.gravity, nodes.carried)};

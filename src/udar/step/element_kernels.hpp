@@ -16,6 +16,11 @@ struct Sides {
   Real x1, y1, x2, y2;
 
   [[nodiscard]] Real twice_area() const { return x1 * y2 - x2 * y1; }
+
+  /// These sides after a part of a change.
+  [[nodiscard]] Sides after(Real part, const Sides& change) const {
+    return {x1 + part * change.x1, y1 + part * change.y1, x2 + part * change.x2, y2 + part * change.y2};
+  }
 };
 
 /// Strain increment of a step and the turn that goes with it.
@@ -27,28 +32,43 @@ struct StrainStep {
   Real twice_area;               ///< m2, of the triangle in the middle of the step
 };
 
-/// Strain increment from the sides at the end of the step and their change during it, with gradients on the triangle
-/// in the middle of the step: a rigid turn then gives exactly no strain, and the exact turn follows without sine or
-/// cosine (Hughes and Winget 1980, eqs. 20-27).
+/// Strain increment from the sides in the middle of the step and their change during it: with gradients on the middle
+/// triangle a rigid turn gives exactly no strain, and the exact turn follows without sine or cosine (Hughes and Winget
+/// 1980, eqs. 20-27). The tangent of half the turn is q = (v,x - u,y) / 4; 1 / A and 1 / (1 + q^2) come from a single
+/// division, the slowest of all operations here.
 template <class Real>
-StrainStep<Real> strain_step(const Sides<Real>& end, const Sides<Real>& change) {
-  const Real half(0.5);
-  const Sides<Real> mid{end.x1 - half * change.x1, end.y1 - half * change.y1, end.x2 - half * change.x2,
-                        end.y2 - half * change.y2};
+StrainStep<Real> strain_step(const Sides<Real>& mid, const Sides<Real>& change) {
   const Real twice_area = mid.twice_area();
-  const Real inverse = Real(1) / twice_area;
-  const Real u_x = (change.x1 * mid.y2 - change.x2 * mid.y1) * inverse;
-  const Real u_y = (change.x2 * mid.x1 - change.x1 * mid.x2) * inverse;
-  const Real v_x = (change.y1 * mid.y2 - change.y2 * mid.y1) * inverse;
-  const Real v_y = (change.y2 * mid.x1 - change.y1 * mid.x2) * inverse;
-  const Real shear = u_y + v_x;
-  const Real q = Real(0.25) * (v_x - u_y);  // half the rotation increment = tan(turn / 2)
-  const Real scale = Real(1) / (Real(1) + q * q);
+  // Displacement gradient times twice the area.
+  const Real u_x = change.x1 * mid.y2 - change.x2 * mid.y1;
+  const Real u_y = change.x2 * mid.x1 - change.x1 * mid.x2;
+  const Real v_x = change.y1 * mid.y2 - change.y2 * mid.y1;
+  const Real v_y = change.y2 * mid.x1 - change.y1 * mid.x2;
+  const Real turn = v_x - u_y;
+  const Real square = Real(16) * twice_area * twice_area;
+  const Real both = square + turn * turn;
+  const Real reciprocal = Real(1) / (twice_area * both);
+  const Real inverse = both * reciprocal;
+  const Real scale = square * (twice_area * reciprocal);  // 1 / (1 + q^2)
+
+  const Real xx = u_x * inverse;
+  const Real yy = v_y * inverse;
+  const Real xy2 = (u_y + v_x) * inverse;
+  const Real q = Real(0.25) * turn * inverse;
   const Real cos = (Real(1) - q * q) * scale;
   const Real sin = Real(2) * q * scale;
   // Turned by half of that: the squares of its cosine and sine are scale and q^2 scale, their product q scale.
-  const Real moved = q * scale * (q * (u_x - v_y) + shear);
-  return {u_x, v_y, shear, u_x - moved, v_y + moved, cos * shear + sin * (u_x - v_y), cos, sin, twice_area};
+  const Real moved = q * scale * (q * (xx - yy) + xy2);
+  return {xx, yy, xy2, xx - moved, yy + moved, cos * xy2 + sin * (xx - yy), cos, sin, twice_area};
+}
+
+/// Bound on the square of how much a step can change the shape of a triangle: the ratio of its principal stretches is
+/// at most 1 + 1.1 q, with q the root of this, while q <= 0.1. For the gradient G of the step, the material deforms by
+/// F = (1 - G/2)^-1 (1 + G/2). With t = |tr G| / 4 and g the difference of the principal strain increments, the
+/// condition number of F is at most ((1 + g/4)^2 - t^2) / ((1 - g/4)^2 - t^2); g <= q and t <= q / 4.
+template <class Real>
+Real stretch_squared(const StrainStep<Real>& e) {
+  return Real(2) * (e.xx * e.xx + e.yy * e.yy) + e.xy2 * e.xy2;
 }
 
 /// Stress of material that has turned by (cos, sin), in the fixed axes: R s R^T.

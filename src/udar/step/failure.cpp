@@ -6,12 +6,13 @@
 #include <cmath>
 
 #include "udar/base/error.hpp"
-#include "udar/step/element_kernels.hpp"
+#include "udar/step/motion.hpp"
 
 namespace udar {
 namespace {
 
-Vec2 place(const State& state, Index node) { return {state.nodes[node].x, state.nodes[node].y}; }
+// Nodes have not moved yet when an element fails in a step.
+Vec2 place(const State& state, Index node) { return place_after(state.nodes[node], state.clock.last_step); }
 
 std::string when(const Clock& clock) {
   return fmt::format("at t = {:.6g} s (step {}, h = {:.4g} s)", clock.time.value(), clock.step, clock.last_step);
@@ -29,10 +30,7 @@ std::string element_text(const Model& model, const State& state, Index element) 
 double smaller_area(const Model& model, const State& state, Index element) {
   const double h = state.clock.last_step;
   const auto& corners = model.corners[element];
-  const auto middle = [&](Index i) {
-    const NodeRecord& r = state.nodes[i];
-    return place(state, i) - (0.5 * h) * Vec2{r.vx, r.vy};
-  };
+  const auto middle = [&](Index i) { return place_after(state.nodes[i], 0.5 * h); };
   const double at_end = twice_area(place(state, corners[0]), place(state, corners[1]), place(state, corners[2]));
   return std::min(at_end, twice_area(middle(corners[0]), middle(corners[1]), middle(corners[2])));
 }

@@ -12,6 +12,10 @@ inline Vec2 damping_force(const Model& model, const State& state, Index node, do
   return (-rate * model.mass[node]) * (Vec2{r.vx, r.vy} - mean_velocity);
 }
 
+/// Where a node will be at the end of a step, m. Nodes are moved when they are accelerated, in one pass over them; what
+/// needs their new places before that takes them from here. `h` is 0 once they have moved.
+inline Vec2 place_after(const NodeRecord& r, double h) { return {r.x + h * r.vx, r.y + h * r.vy}; }
+
 /// Rate of mass damping now, 1/s.
 inline double damping_rate(const Model& model, const State& state) {
   const MassDamping& damping = model.run.damping;

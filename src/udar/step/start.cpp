@@ -22,10 +22,11 @@ State rest_state(const Model& model) {
     state.last_acceleration.resize(nodes);
     state.second_acceleration.resize(nodes);
   }
-  for (auto* field : {&state.stress_xx, &state.stress_yy, &state.stress_xy, &state.stress_zz, &state.plastic_strain,
-                      &state.plastic_power}) {
+  for (auto* field : {&state.stress_xx, &state.stress_yy, &state.stress_xy, &state.stress_zz, &state.plastic_strain}) {
     field->resize(elements);
   }
+  state.flowing.resize(elements / lanes);
+  state.frequency.resize(model.element_blocks.size());
   state.contacts.resize(model.obstacles.size() * model.contact_nodes.size());
   state.obstacles.resize(model.obstacles.size());
   std::size_t loaded = 0;
@@ -35,6 +36,7 @@ State rest_state(const Model& model) {
   for (const Support& support : model.supports) held += support.nodes.size();
   state.support_forces.resize(held);
   state.body_momentum.resize(model.bodies.size());
+  state.body_sums.resize(model.bodies.size());
   return state;
 }
 

@@ -12,15 +12,4 @@ void advance_clock(const Model& model, State& state) {
   ++clock.step;
 }
 
-void move_nodes(const Model& model, State& state, Workspace& work) {
-  const double h = state.clock.last_step;
-  work.pool.for_each_block(model.node_blocks.size(), [&](std::size_t block) {
-    for (Index i = model.node_blocks[block].begin; i < model.node_blocks[block].end; ++i) {
-      NodeRecord& node = state.nodes[i];
-      node.x += h * node.vx;
-      node.y += h * node.vy;
-    }
-  });
-}
-
 }  // namespace udar
