@@ -22,14 +22,12 @@ namespace udar {
 [[gnu::always_inline]] inline double select(bool mask, double a, double b) { return mask ? a : b; }
 [[gnu::always_inline]] inline double larger(double a, double b) { return a > b ? a : b; }
 [[gnu::always_inline]] inline double smaller(double a, double b) { return a < b ? a : b; }
-[[gnu::always_inline]] inline bool either(bool a, bool b) { return a || b; }
 /// Does the mask hold in any lane?
 [[gnu::always_inline]] inline bool any(bool mask) { return mask; }
 
 namespace UDAR_ISA {
 
 using udar::any;
-using udar::either;
 using udar::larger;
 using udar::select;
 using udar::smaller;
@@ -72,7 +70,6 @@ struct Pack {
 struct Mask {
   __mmask8 lanes;
 
-  friend Mask either(Mask a, Mask b) { return {static_cast<__mmask8>(a.lanes | b.lanes)}; }
   friend bool any(Mask m) { return m.lanes != 0; }
   /// Bit i is lane i.
   friend unsigned bits(Mask m) { return m.lanes; }
@@ -90,10 +87,6 @@ inline Pack sqrt(Pack a) { return Pack::Vector(_mm512_sqrt_pd(a.v)); }
 struct Mask {
   Pack::Vector lanes;  ///< all bits of a lane, or none
 
-  friend Mask either(Mask a, Mask b) {
-    using Bits = decltype(Pack::Vector{} > Pack::Vector{});
-    return {Pack::Vector(Bits(a.lanes) | Bits(b.lanes))};
-  }
   friend bool any(Mask m) { return bits(m) != 0; }
   /// Bit i is lane i.
   friend unsigned bits(Mask m) {

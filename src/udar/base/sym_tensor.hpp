@@ -16,5 +16,9 @@ template <class Real>
 constexpr SymTensor<Real> operator+(const SymTensor<Real>& a, const SymTensor<Real>& b) {
   return {a.xx + b.xx, a.yy + b.yy, a.xy + b.xy, a.zz + b.zz};
 }
+template <class Real>
+constexpr SymTensor<Real> operator-(const SymTensor<Real>& a, const SymTensor<Real>& b) {
+  return {a.xx - b.xx, a.yy - b.yy, a.xy - b.xy, a.zz - b.zz};
+}
 
 }  // namespace udar

@@ -22,10 +22,15 @@ struct Elastic {
     return elasticity_of(young_modulus, poisson_ratio);
   }
 
-  /// Stress at the end of the step from the elastic trial stress; nothing flows.
+  /// Nothing flows,
+  template <class Real>
+  auto flows(const SymTensor<Real>&) const {
+    return Real(0) > Real(0);
+  }
+  /// so the elastic trial stress holds.
   template <class Real>
   Corrected<Real> correct(const SymTensor<Real>& trial) const {
-    return {trial, Real(0), Real(0) > Real(0)};
+    return {trial, Real(0)};
   }
   /// Plastic strain that goes with plastic work (J/m3): none.
   [[nodiscard, gnu::always_inline]] double plastic_strain_of_work() const { return 0; }

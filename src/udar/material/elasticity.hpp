@@ -29,7 +29,6 @@ template <class Real>
 struct Corrected {
   SymTensor<Real> stress;
   Real plastic_work;
-  decltype(Real() > Real()) flows;  ///< where it flowed
 };
 
 /// Young's modulus and Poisson's ratio as every isotropic law asks for them.

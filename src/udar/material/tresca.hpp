@@ -32,25 +32,31 @@ struct Tresca {
     return elasticity_of(young_modulus, poisson_ratio);
   }
 
-  /// Returns the trial stress to the yield surface along its normal. All principal stresses end between two bounds
-  /// yield_stress apart: those of the face crossed by the largest difference or, where the middle one would then lie
-  /// outside, those of the edge where it equals one of the others. Without branches, but for a way out where no lane
-  /// flows: most elements are elastic at most times.
+  /// Where the trial stress is outside the yield surface. Without a root: with the in-plane radius r, the largest
+  /// difference of two principal stresses is 2 r, or r and the distance of the third one from the centre.
+  template <class Real>
+  auto flows(const SymTensor<Real>& trial) const {
+    using std::fabs;
+    const Real y(yield_stress);
+    const Real half_difference = Real(0.5) * (trial.xx - trial.yy);
+    const Real radius_squared = half_difference * half_difference + trial.xy * trial.xy;
+    const Real third_one = fabs(Real(0.5) * (trial.xx + trial.yy) - trial.zz);
+    const Real elastic = smaller(Real(0.5) * y, y - third_one);  // largest elastic radius; below 0 there is none
+    return radius_squared > elastic * fabs(elastic);
+  }
+
+  /// Returns the trial stress to the yield surface along its normal, where it flows. All principal stresses end between
+  /// two bounds yield_stress apart: those of the face crossed by the largest difference or, where the middle one would
+  /// then lie outside, those of the edge where it equals one of the others. Without branches, so that it vectorises.
   template <class Real>
   Corrected<Real> correct(const SymTensor<Real>& trial) const {
-    using std::fabs;
     using std::sqrt;
+    const auto flows_here = flows(trial);
     const Real y(yield_stress);
     const Real third(1.0 / 3.0);
     const Real centre = Real(0.5) * (trial.xx + trial.yy);
     const Real half_difference = Real(0.5) * (trial.xx - trial.yy);
-    const Real radius_squared = half_difference * half_difference + trial.xy * trial.xy;
-    // In the plane p1 - p2 = 2 r; with the third one the largest difference is r + |centre - p3|.
-    const Real elastic_radius = smaller(Real(0.5) * y, y - fabs(centre - trial.zz));
-    const auto flows = either(radius_squared > elastic_radius * elastic_radius, elastic_radius < Real(0));
-    if (!any(flows)) return {trial, Real(0), flows};
-
-    const Real radius = sqrt(radius_squared);
+    const Real radius = sqrt(half_difference * half_difference + trial.xy * trial.xy);
     const Real p1 = centre + radius;
     const Real p2 = centre - radius;
     const Real p3 = trial.zz;
@@ -72,11 +78,10 @@ struct Tresca {
     const Real new_centre = Real(0.5) * (q1 + q2);
     const Real work = (q1 * (p1 - q1) + q2 * (p2 - q2) + q3 * (p3 - q3)) * Real(0.5 / elasticity().shear_modulus);
     // Where nothing flows the trial stress comes out bit for bit, not its principal values turned back.
-    return {{select(flows, new_centre + shrink * half_difference, trial.xx),
-             select(flows, new_centre - shrink * half_difference, trial.yy), select(flows, shrink * trial.xy, trial.xy),
-             select(flows, q3, trial.zz)},
-            select(flows, work, Real(0)),
-            flows};
+    return {{select(flows_here, new_centre + shrink * half_difference, trial.xx),
+             select(flows_here, new_centre - shrink * half_difference, trial.yy),
+             select(flows_here, shrink * trial.xy, trial.xy), select(flows_here, q3, trial.zz)},
+            select(flows_here, work, Real(0))};
   }
   /// Equivalent plastic strain that goes with plastic work per volume (work-conjugate: work / yield stress), m3/J.
   [[nodiscard, gnu::always_inline]] double plastic_strain_of_work() const { return 1 / yield_stress; }

@@ -26,40 +26,29 @@ struct Sides {
 /// Strain increment of a step and the turn that goes with it.
 template <class Real>
 struct StrainStep {
-  Real xx, yy, xy2;              ///< e_x, e_y and g_xy = 2 e_xy, in the fixed axes, of the middle of the step
-  Real end_xx, end_yy, end_xy2;  ///< the same, carried on by the second half of the turn
-  Real cos, sin;                 ///< turn of the material
-  Real twice_area;               ///< m2, of the triangle in the middle of the step
+  Real xx, yy, xy2;  ///< e_x, e_y and g_xy = 2 e_xy, in the fixed axes, of the middle of the step
+  Real cos, sin;     ///< turn of the material
+  Real twice_area;   ///< m2, of the triangle in the middle of the step
 };
 
 /// Strain increment from the sides in the middle of the step and their change during it: with gradients on the middle
 /// triangle a rigid turn gives exactly no strain, and the exact turn follows without sine or cosine (Hughes and Winget
-/// 1980, eqs. 20-27). The tangent of half the turn is q = (v,x - u,y) / 4; 1 / A and 1 / (1 + q^2) come from a single
-/// division, the slowest of all operations here.
+/// 1980, eqs. 20-27). With D twice the area and N = D (v,x - u,y) / 4 the tangent of half the turn is N / D; 1 / D and
+/// 1 / (D^2 + N^2) come from a single division, the slowest of all operations here.
 template <class Real>
 StrainStep<Real> strain_step(const Sides<Real>& mid, const Sides<Real>& change) {
-  const Real twice_area = mid.twice_area();
-  // Displacement gradient times twice the area.
+  const Real d = mid.twice_area();
+  // Displacement gradient times D.
   const Real u_x = change.x1 * mid.y2 - change.x2 * mid.y1;
   const Real u_y = change.x2 * mid.x1 - change.x1 * mid.x2;
   const Real v_x = change.y1 * mid.y2 - change.y2 * mid.y1;
   const Real v_y = change.y2 * mid.x1 - change.y1 * mid.x2;
-  const Real turn = v_x - u_y;
-  const Real square = Real(16) * twice_area * twice_area;
-  const Real both = square + turn * turn;
-  const Real reciprocal = Real(1) / (twice_area * both);
-  const Real inverse = both * reciprocal;
-  const Real scale = square * (twice_area * reciprocal);  // 1 / (1 + q^2)
-
-  const Real xx = u_x * inverse;
-  const Real yy = v_y * inverse;
-  const Real xy2 = (u_y + v_x) * inverse;
-  const Real q = Real(0.25) * turn * inverse;
-  const Real cos = (Real(1) - q * q) * scale;
-  const Real sin = Real(2) * q * scale;
-  // Turned by half of that: the squares of its cosine and sine are scale and q^2 scale, their product q scale.
-  const Real moved = q * scale * (q * (xx - yy) + xy2);
-  return {xx, yy, xy2, xx - moved, yy + moved, cos * xy2 + sin * (xx - yy), cos, sin, twice_area};
+  const Real n = Real(0.25) * (v_x - u_y);
+  const Real squares = d * d + n * n;
+  const Real reciprocal = Real(1) / (d * squares);
+  const Real inverse = squares * reciprocal;          // 1 / D
+  const Real twice = (d + d) * (d * reciprocal);      // 2 D / (D^2 + N^2)
+  return {u_x * inverse, v_y * inverse, (u_y + v_x) * inverse, d * twice - Real(1), n * twice, d};
 }
 
 /// Bound on the square of how much a step can change the shape of a triangle: the ratio of its principal stretches is
@@ -71,32 +60,30 @@ Real stretch_squared(const StrainStep<Real>& e) {
   return Real(2) * (e.xx * e.xx + e.yy * e.yy) + e.xy2 * e.xy2;
 }
 
-/// Stress of material that has turned by (cos, sin), in the fixed axes: R s R^T.
-template <class Real>
-SymTensor<Real> turned(const SymTensor<Real>& s, Real cos, Real sin) {
-  const Real cc = cos * cos;
-  const Real ss = sin * sin;
-  const Real cs = cos * sin;
-  const Real twice_shear = Real(2) * cs * s.xy;
-  return {cc * s.xx - twice_shear + ss * s.yy, ss * s.xx + twice_shear + cc * s.yy,
-          cs * (s.xx - s.yy) + (cc - ss) * s.xy, s.zz};
-}
-
-/// Elastic stress at the end of the step from the old stress, already turned to there, plane strain (Hooke). The strain
-/// increment belongs to the middle of the step and is turned on by half: added as it is, the stress would be right to
-/// first order only, and a wave that runs round a spinning disc would grow or die.
+/// Elastic stress at the end of the step from the stress at its start, plane strain (Hooke). The strain increment
+/// belongs to the middle of the step, so it is added half-way through the turn: R (R s R^T + C de) R^T with R half the
+/// turn. Added at the end, the stress would be right to first order only, and a wave that runs round a spinning disc
+/// would grow or die. In the plane a turn leaves the mean (xx + yy) / 2 alone and turns the pair of (xx - yy) / 2 and
+/// xy by twice its angle.
 template <class Real>
 SymTensor<Real> elastic_trial(const SymTensor<Real>& s, const StrainStep<Real>& e, const Elasticity& elasticity) {
-  const Real pressure = Real(elasticity.lambda) * (e.xx + e.yy);
-  const Real two_g(2 * elasticity.shear_modulus);
-  return {s.xx + pressure + two_g * e.end_xx, s.yy + pressure + two_g * e.end_yy,
-          s.xy + Real(elasticity.shear_modulus) * e.end_xy2, s.zz + pressure};
+  const Real g(elasticity.shear_modulus);
+  const Real sum = e.xx + e.yy;
+  const Real mean = Real(0.5) * (s.xx + s.yy) + Real(elasticity.lambda + elasticity.shear_modulus) * sum;
+  const Real old_half = Real(0.5) * (s.xx - s.yy);
+  // Half the turn turns the pair by its whole angle.
+  const Real mid_half = (e.cos * old_half - e.sin * s.xy) + g * (e.xx - e.yy);
+  const Real mid_xy = (e.sin * old_half + e.cos * s.xy) + g * e.xy2;
+  const Real half = e.cos * mid_half - e.sin * mid_xy;
+  const Real xy = e.sin * mid_half + e.cos * mid_xy;
+  return {mean + half, mean - half, xy, s.zz + Real(elasticity.lambda) * sum};
 }
 
-/// Work of the stresses in the step per volume, J/m3: (s_n + s_{n+1}) : de / 2 with s_n before the turn.
+/// Work of a stress on the strain increment per volume, J/m3: s : de. That of a step is the mean of the works of the
+/// stresses at its start, before the turn, and at its end.
 template <class Real>
-Real stress_work(const SymTensor<Real>& before, const SymTensor<Real>& after, const StrainStep<Real>& e) {
-  return Real(0.5) * ((before.xx + after.xx) * e.xx + (before.yy + after.yy) * e.yy + (before.xy + after.xy) * e.xy2);
+Real stress_work(const SymTensor<Real>& s, const StrainStep<Real>& e) {
+  return s.xx * e.xx + s.yy * e.yy + s.xy * e.xy2;
 }
 
 /// Forces of the element's stress on corners 1 and 2 (N); corner 0 gets the opposite of their sum.

@@ -157,15 +157,20 @@ struct Multistep {
 /// Sums of the corner forces at each node, in the order of the quads, N.
 void sum_forces(const NodeTask& task, Vec2* internal) {
   using Two = double __attribute__((vector_size(16)));
+  const auto force = [forces = task.forces](std::uint32_t slot) {
+    Two f;
+    __builtin_memcpy(&f, &forces[slot].x, sizeof f);
+    return f;
+  };
   const std::uint32_t* slot = task.slots + task.offsets[0];
   for (Index i = 0; i < task.count; ++i) {
     const std::uint32_t* const end = task.slots + task.offsets[i + 1];
     Two sum{};
-    for (; slot != end; ++slot) {
-      Two force;
-      __builtin_memcpy(&force, &task.forces[*slot].x, sizeof force);
-      sum += force;
+    if (end - slot == 4) {  // by far the most
+      sum = ((force(slot[0]) + force(slot[1])) + force(slot[2])) + force(slot[3]);
+      slot = end;
     }
+    for (; slot != end; ++slot) sum += force(*slot);
     __builtin_memcpy(&internal[i].x, &sum, sizeof sum);
   }
 }

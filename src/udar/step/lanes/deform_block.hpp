@@ -29,6 +29,14 @@ QuadSides gather(const ElementTask& task, Index first) {
   return {{columns(corner(1) - origin), columns(corner(2) - origin), columns(corner(3) - origin)}};
 }
 
+/// What is kept of a block between its loops: enough to stay in the first cache.
+struct BlockBuffer {
+  static constexpr Index packs = elements_per_block / Pack::lanes;
+  Sides<Pack> sides[packs];  ///< m, at the end of the step
+  StrainStep<Pack> strains[packs];
+  Index flowing[packs + 1];  ///< first elements of the packs that flow
+};
+
 /// Sums and extremes of a block, lane by lane and then over the lanes: an order that is fixed, whatever computes it.
 struct LaneSums {
   static constexpr Index packs = lanes / Pack::lanes;
@@ -40,6 +48,7 @@ struct LaneSums {
       smallest_area[p] = Pack(__builtin_inf());
     }
   }
+  static Index pack_of(Index element) { return element % lanes / Pack::lanes; }
 
   [[nodiscard]] ElementSums total() const {
     ElementSums sums{.smallest_area = __builtin_inf()};
@@ -61,41 +70,54 @@ struct LaneSums {
   }
 };
 
-/// Which elements of a pack flow, in its bits of their byte.
-void set_flowing(const ElementTask& task, Index i, unsigned bits) {
-  const Index lane = i % lanes;
-  std::uint8_t& byte = task.flowing[i / lanes];
-  byte = static_cast<std::uint8_t>((lane == 0 ? 0U : byte) | bits << lane);
+SymTensor<Pack> load_stress(const ElementTask& task, Index i) {
+  return {Pack::load(task.xx + i), Pack::load(task.yy + i), Pack::load(task.xy + i), Pack::load(task.zz + i)};
+}
+void store_stress(const ElementTask& task, Index i, const SymTensor<Pack>& s) {
+  s.xx.store(task.xx + i);
+  s.yy.store(task.yy + i);
+  s.xy.store(task.xy + i);
+  s.zz.store(task.zz + i);
 }
 
-/// One pack of elements through the step: strain and turn, trial stress, the law, corner forces, books.
-template <class Law>
-CornerForces<Pack> deform_pack(const ElementTask& task, Index i, const Law& law, const Sides<Pack>& start,
-                               const Sides<Pack>& change, LaneSums& sums) {
-  const Sides<Pack> mid = start.after(Pack(0.5), change);
-  const Sides<Pack> end = start.after(Pack(1), change);
-  const StrainStep<Pack> strain = strain_step(mid, change);
-  const SymTensor<Pack> before{Pack::load(task.xx + i), Pack::load(task.yy + i), Pack::load(task.xy + i),
-                               Pack::load(task.zz + i)};
-  const SymTensor<Pack> trial = elastic_trial(turned(before, strain.cos, strain.sin), strain, law.elasticity());
-  const Corrected<Pack> after = law.correct(trial);
-  after.stress.xx.store(task.xx + i);
-  after.stress.yy.store(task.yy + i);
-  after.stress.xy.store(task.xy + i);
-  after.stress.zz.store(task.zz + i);
+/// Strain and turn of a pack of elements.
+void strain(Index i, const Sides<Pack>& start, const Sides<Pack>& change, BlockBuffer& buffer, LaneSums& sums) {
+  const StrainStep<Pack> e = strain_step(start.after(Pack(0.5), change), change);
+  const Index p = LaneSums::pack_of(i);
+  sums.smallest_area[p] = smaller(sums.smallest_area[p], e.twice_area);
+  sums.stretch[p] = larger(sums.stretch[p], stretch_squared(e));
+  buffer.sides[i / Pack::lanes] = start.after(Pack(1), change);
+  buffer.strains[i / Pack::lanes] = e;
+}
 
-  const Index p = i % lanes / Pack::lanes;
-  const Pack volume = Pack(task.half_thickness) * strain.twice_area;
-  set_flowing(task, i, bits(after.flows));
-  if (any(after.flows)) {
-    const Pack plastic_strain = after.plastic_work * Pack(law.plastic_strain_of_work());
-    (Pack::load(task.plastic_strain + i) + plastic_strain).store(task.plastic_strain + i);
-    sums.plastic_work[p] = sums.plastic_work[p] + volume * after.plastic_work;
-  }
-  sums.stress_work[p] = sums.stress_work[p] + volume * stress_work(before, after.stress, strain);
-  sums.smallest_area[p] = smaller(sums.smallest_area[p], smaller(strain.twice_area, end.twice_area()));
-  sums.stretch[p] = larger(sums.stretch[p], stretch_squared(strain));
-  return corner_forces(after.stress, end, Pack(task.half_thickness));
+/// Elastic trial stress and its work; returns whether the pack flows.
+template <class Law>
+bool try_elastic(const ElementTask& task, Index i, const Law& law, const StrainStep<Pack>& e, LaneSums& sums) {
+  const SymTensor<Pack> before = load_stress(task, i);
+  const SymTensor<Pack> trial = elastic_trial(before, e, law.elasticity());
+  store_stress(task, i, trial);
+  const Pack volume = Pack(task.half_thickness) * e.twice_area;
+  Pack& work = sums.stress_work[LaneSums::pack_of(i)];
+  work = work + Pack(0.5) * volume * stress_work(before + trial, e);
+  return any(law.flows(trial));
+}
+
+/// Stress of a pack that flows, its plastic work, and what that takes from the work of the trial stress.
+template <class Law>
+void flow(const ElementTask& task, Index i, const Law& law, const StrainStep<Pack>& e, LaneSums& sums) {
+  const SymTensor<Pack> trial = load_stress(task, i);
+  const Corrected<Pack> after = law.correct(trial);
+  store_stress(task, i, after.stress);
+  const Pack plastic_strain = after.plastic_work * Pack(law.plastic_strain_of_work());
+  (Pack::load(task.plastic_strain + i) + plastic_strain).store(task.plastic_strain + i);
+
+  const Pack volume = Pack(task.half_thickness) * e.twice_area;
+  const Index p = LaneSums::pack_of(i);
+  sums.plastic_work[p] = sums.plastic_work[p] + volume * after.plastic_work;
+  sums.stress_work[p] =
+      sums.stress_work[p] + Pack(0.5) * volume * stress_work(after.stress - trial, e);
+  std::uint8_t& byte = task.flowing[i / lanes];
+  byte = static_cast<std::uint8_t>(byte | bits(law.flows(trial)) << i % lanes);
 }
 
 /// Forces on one corner of a pack of quads, in the order of QuadForces.
@@ -106,65 +128,86 @@ void put_forces(const ElementTask& task, Index first, Index corner, Pack x, Pack
   odd_lanes(x, y).store(to + lanes);
 }
 
-/// Largest frequency of the elements at the end of the step, and who has it.
-[[gnu::noinline]] void compute_frequency(const ElementTask& task, const Elasticity& elasticity, bool paired) {
-  Pack largest(-1);
+/// Corner forces of a pack of quads; `one` and `two` are their elements.
+template <bool paired>
+void press_corners(const ElementTask& task, Index q, const BlockBuffer& buffer) {
+  const Pack half_thickness(task.half_thickness);
+  const CornerForces<Pack> one = corner_forces(load_stress(task, q), buffer.sides[q / Pack::lanes], half_thickness);
+  CornerForces<Pack> two{Pack(0), Pack(0), Pack(0), Pack(0)};
+  if constexpr (paired) {
+    const Index i = task.count + q;
+    two = corner_forces(load_stress(task, i), buffer.sides[i / Pack::lanes], half_thickness);
+    put_forces(task, q, 3, two.x1, two.y1);
+  }
+  const Pack x1 = one.x1 + two.x2;
+  const Pack y1 = one.y1 + two.y2;
+  put_forces(task, q, 1, x1, y1);
+  put_forces(task, q, 2, one.x2, one.y2);
+  put_forces(task, q, 0, -(x1 + one.x2 + two.x1), -(y1 + one.y2 + two.y1));
+}
+
+/// Largest frequency of the elements at the end of the step, and who has it; returns twice the smallest area then.
+[[gnu::noinline]] double compute_frequency(const ElementTask& task, Index elements, const Elasticity& elasticity,
+                                           const BlockBuffer& buffer) {
   FrequencyBound& found = *task.frequency;
   found.computed = -1;
-  double squared[lanes];
-  const auto look = [&](Index i, const Sides<Pack>& end) {
-    const Pack w2 = eigenfrequency_squared(end, elasticity, Pack::load(task.area_density + i)) +
-                    Pack::load(task.contact_spring + i);
-    if (!any(w2 > Pack(found.computed))) return;
-    w2.store(squared);
+  double smallest = __builtin_inf();
+  for (Index i = 0; i < elements; i += Pack::lanes) {
+    const Sides<Pack>& end = buffer.sides[i / Pack::lanes];
+    const Pack area = end.twice_area();
+    const Pack squared = eigenfrequency_squared(end, elasticity, Pack::load(task.area_density + i)) +
+                         Pack::load(task.contact_spring + i);
     for (Index l = 0; l < Pack::lanes; ++l) {
-      if (!(squared[l] > found.computed)) continue;
-      found.computed = squared[l];
+      smallest = smaller(smallest, area.v[l]);
+      if (!(squared.v[l] > found.computed)) continue;
+      found.computed = squared.v[l];
       found.element = task.first_element + i + l;
     }
-  };
-  const Pack h(task.step);
-  for (Index q = 0; q < task.count; q += Pack::lanes) {
-    const QuadSides quads = gather(task, q);
-    look(q, quads.sides(1, 2).after(Pack(1), quads.change(1, 2, h)));
-  }
-  for (Index q = 0; paired && q < task.count; q += Pack::lanes) {
-    const QuadSides quads = gather(task, q);
-    look(task.count + q, quads.sides(3, 1).after(Pack(1), quads.change(3, 1, h)));
   }
   found.squared = found.computed;
+  return smallest;
 }
 
 /// The bound grows by as much as the ratio of the principal stretches of any element may have grown: turned to the
-/// principal axes of B B^T, no entry of the matrix of `eigenfrequency_squared` grows by more.
-void bound_frequency(const ElementTask& task, const Elasticity& elasticity, bool paired, double stretch) {
+/// principal axes of B B^T, no entry of the matrix of `eigenfrequency_squared` grows by more. While it holds no element
+/// can turn over between the middle and the end of the step either.
+void bound_frequency(const ElementTask& task, Index elements, const Elasticity& elasticity, const BlockBuffer& buffer,
+                     double stretch, ElementSums& sums) {
   constexpr double bounded = 0.1;  // see stretch_squared
   FrequencyBound& frequency = *task.frequency;
   frequency.squared = stretch <= bounded ? frequency.squared * (1 + 1.1 * stretch) : __builtin_inf();
-  if (frequency.squared > task.compute_above) compute_frequency(task, elasticity, paired);
+  if (frequency.squared <= task.compute_above) return;
+  sums.smallest_area = smaller(sums.smallest_area, compute_frequency(task, elements, elasticity, buffer));
 }
 
+/// Loop by loop rather than element by element: each loop keeps its constants and intermediate results in registers,
+/// and packs that flow are gathered without a branch that the processor would have to guess.
 template <class Law, bool paired>
 [[gnu::flatten]] ElementSums deform_block(const ElementTask& task, const void* untyped_law) {
   const Law law = *static_cast<const Law*>(untyped_law);
   const Pack h(task.step);
+  const Index elements = paired ? 2 * task.count : task.count;
+  BlockBuffer buffer;
   LaneSums sums;
   for (Index q = 0; q < task.count; q += Pack::lanes) {
     const QuadSides quads = gather(task, q);
-    const CornerForces<Pack> one = deform_pack(task, q, law, quads.sides(1, 2), quads.change(1, 2, h), sums);
-    CornerForces<Pack> two{Pack(0), Pack(0), Pack(0), Pack(0)};
-    if constexpr (paired) {
-      two = deform_pack(task, task.count + q, law, quads.sides(3, 1), quads.change(3, 1, h), sums);
-      put_forces(task, q, 3, two.x1, two.y1);
-    }
-    const Pack x1 = one.x1 + two.x2;
-    const Pack y1 = one.y1 + two.y2;
-    put_forces(task, q, 1, x1, y1);
-    put_forces(task, q, 2, one.x2, one.y2);
-    put_forces(task, q, 0, -(x1 + one.x2 + two.x1), -(y1 + one.y2 + two.y1));
+    strain(q, quads.sides(1, 2), quads.change(1, 2, h), buffer, sums);
+    if constexpr (paired) strain(task.count + q, quads.sides(3, 1), quads.change(3, 1, h), buffer, sums);
   }
-  bound_frequency(task, law.elasticity(), paired, sums.largest_stretch());
-  return sums.total();
+  Index flowing = 0;
+  for (Index i = 0; i < elements; i += Pack::lanes) {
+    buffer.flowing[flowing] = i;
+    flowing += try_elastic(task, i, law, buffer.strains[i / Pack::lanes], sums) ? 1 : 0;
+  }
+  for (Index i = 0; i < elements / lanes; ++i) task.flowing[i] = 0;
+  for (Index k = 0; k < flowing; ++k) {
+    flow(task, buffer.flowing[k], law, buffer.strains[buffer.flowing[k] / Pack::lanes], sums);
+  }
+  for (Index q = 0; q < task.count; q += Pack::lanes) press_corners<paired>(task, q, buffer);
+
+  ElementSums total = sums.total();
+  bound_frequency(task, elements, law.elasticity(), buffer, sums.largest_stretch(), total);
+  return total;
 }
 
 template <class Laws>
