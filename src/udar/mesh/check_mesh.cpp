@@ -79,15 +79,17 @@ void check_areas(const Mesh& mesh, Finding& clockwise, Finding& flat) {
 
 void check_edges(const Mesh& mesh, Finding& unused, Finding& overlap) {
   const NodeCorners map = node_corners(mesh.nodes.size(), mesh.triangles);
+  std::vector<Index> ends;  // of the sides that begin at a node
   for (Index i = 0; i < mesh.nodes.size(); ++i) {
     const auto corners = map.of(i);
     if (corners.empty()) {
       unused.add(fmt::format("node {} at {} belongs to no triangle", number(mesh.node_numbers, i), at(mesh.nodes[i])));
     }
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      const auto end = [&](std::uint32_t c) { return mesh.triangles[c / 3][next_corner(static_cast<int>(c % 3))]; };
-      for (std::size_t l = k + 1; l < corners.size(); ++l) {
-        if (end(corners[k]) != end(corners[l])) continue;
+    ends.clear();
+    for (const std::uint32_t c : corners) ends.push_back(mesh.triangles[c / 3][next_corner(static_cast<int>(c % 3))]);
+    for (std::size_t k = 0; k < ends.size(); ++k) {
+      for (std::size_t l = k + 1; l < ends.size(); ++l) {
+        if (ends[k] != ends[l]) continue;
         overlap.add(fmt::format("{} and {} lie on the same side of their common edge", name(mesh, corners[k] / 3),
                                 name(mesh, corners[l] / 3)));
       }

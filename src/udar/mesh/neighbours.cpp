@@ -3,16 +3,27 @@
 namespace udar {
 
 std::vector<std::array<Index, 3>> neighbours(std::span<const std::array<Index, 3>> triangles, const NodeCorners& map) {
-  // The neighbour across the side from a to b has the side from b to a: it is one of the few triangles at node b.
-  const auto with_side = [&](Index from, Index to) {
-    for (const std::uint32_t corner : map.of(from)) {
-      if (triangles[corner / 3][next_corner(static_cast<int>(corner % 3))] == to) return corner / 3;
-    }
-    return none;
+  // Of the two triangles on a side, one leaves the node by it and the other comes in. Going from node to node reads
+  // each triangle three times only, which matters where the file numbers them at random.
+  struct Visit {
+    std::uint32_t corner;
+    Index next;
+    Index before;
   };
-  std::vector<std::array<Index, 3>> across(triangles.size());
-  for (std::size_t t = 0; t < triangles.size(); ++t) {
-    for (int k = 0; k < 3; ++k) across[t][k] = with_side(triangles[t][next_corner(k)], triangles[t][k]);
+  std::vector<std::array<Index, 3>> across(triangles.size(), {none, none, none});
+  std::vector<Visit> visits;
+  for (Index node = 0; node + 1 < map.offsets.size(); ++node) {
+    visits.clear();
+    for (const std::uint32_t corner : map.of(node)) {
+      const int local = static_cast<int>(corner % 3);
+      const auto& triangle = triangles[corner / 3];
+      visits.push_back({corner, triangle[next_corner(local)], triangle[next_corner(next_corner(local))]});
+    }
+    for (const Visit& out : visits) {
+      for (const Visit& in : visits) {
+        if (out.next == in.before) across[out.corner / 3][out.corner % 3] = in.corner / 3;
+      }
+    }
   }
   return across;
 }
