@@ -52,8 +52,9 @@ TEST_CASE("a summary reads back equal") {
 TEST_CASE("the names that scripts rely on") {
   const auto json = nlohmann::json::parse(to_json(example()));
   CHECK(json.at("schema") == 1);
-  for (const char* name : {"elements", "nodes", "steps", "threads", "wall_seconds", "element_steps_per_second",
-                           "end_time", "energy_error", "momentum_error", "verdict", "reasons", "stop_reason"}) {
+  for (const char* name :
+       {"elements", "nodes", "steps", "threads", "wall_seconds", "stepping_seconds", "element_steps_per_second",
+        "end_time", "energy_error", "momentum_error", "verdict", "reasons", "stop_reason"}) {
     CHECK(json.contains(name));
   }
   for (const char* name : {"min", "max", "max_abs", "last"}) {

@@ -31,6 +31,13 @@ struct Turned {
   double place = 0;     // m, largest distance of a node from where the turn carries it
 };
 
+/// R s R^T.
+SymTensor<double> turned(const SymTensor<double>& s, double cos, double sin) {
+  const double cross = 2 * cos * sin * s.xy;
+  return {cos * cos * s.xx - cross + sin * sin * s.yy, sin * sin * s.xx + cross + cos * cos * s.yy,
+          cos * sin * (s.xx - s.yy) + (cos * cos - sin * sin) * s.xy, s.zz};
+}
+
 Turned turn_squares(double angle_per_step, int steps) {
   Run run(turning(angle_per_step, steps));
   // A stress of the order of E, so that 1e-12 of it stands above the rounding of strains, 1e-16 E.

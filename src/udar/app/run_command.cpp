@@ -70,7 +70,7 @@ void print_contacts(const Summary& summary) {
 void print_result(const Summary& s, const fs::path& folder) {
   print_contacts(s);
   say("\n{} elements x {} in {}: {} element-steps/s, {}\n", s.elements, counted(s.steps, "step"),
-      in_units(s.wall_seconds, "s"), in_units(s.element_steps_per_second, ""), counted(s.threads, "thread"));
+      in_units(s.stepping_seconds, "s"), in_units(s.element_steps_per_second, ""), counted(s.threads, "thread"));
   say("verdict: {}   energy {:.2g} %   momentum {:.1g}   penetration {:.2g} % of element   -> {}\n", s.verdict,
       100 * s.energy_error, s.momentum_error, 100 * s.penetration_ratio, folder.string());
   const bool told_as_error = s.stop_reason == "numerical" || s.stop_reason == "disk";

@@ -105,6 +105,7 @@ void for_each_member(T& s, Visit visit) {
   visit("steps", s.steps);
   visit("threads", s.threads);
   visit("wall_seconds", s.wall_seconds);
+  visit("stepping_seconds", s.stepping_seconds);
   visit("element_steps_per_second", s.element_steps_per_second);
   visit("end_time", s.end_time);
   visit("energy_error", s.energy_error);

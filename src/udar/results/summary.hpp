@@ -97,7 +97,8 @@ struct Summary {
   long long nodes = 0;
   long long steps = 0;
   int threads = 1;
-  double wall_seconds = 0;
+  double wall_seconds = 0;      ///< of the whole run, output included
+  double stepping_seconds = 0;  ///< of these, from the first step to the last
   double element_steps_per_second = 0;
   double end_time = 0;                   ///< s, reached
   double energy_error = no_number;       ///< part of the energy, largest over time

@@ -46,8 +46,8 @@ StrainStep<Real> strain_step(const Sides<Real>& mid, const Sides<Real>& change) 
   const Real n = Real(0.25) * (v_x - u_y);
   const Real squares = d * d + n * n;
   const Real reciprocal = Real(1) / (d * squares);
-  const Real inverse = squares * reciprocal;          // 1 / D
-  const Real twice = (d + d) * (d * reciprocal);      // 2 D / (D^2 + N^2)
+  const Real inverse = squares * reciprocal;      // 1 / D
+  const Real twice = (d + d) * (d * reciprocal);  // 2 D / (D^2 + N^2)
   return {u_x * inverse, v_y * inverse, (u_y + v_x) * inverse, d * twice - Real(1), n * twice, d};
 }
 

@@ -94,21 +94,31 @@ struct NodeLaneSums {
   LaneSum damping_before, damping_after, damping_x, damping_y;
 };
 
+/// What a loop over nodes keeps in registers.
+template <class Real>
+struct Constants {
+  Real last_step, span;
+  Vector<Real> gravity;
+
+  explicit Constants(const NodeTask& task)
+      : last_step(task.last_step), span(task.span), gravity{Real(task.gravity.x), Real(task.gravity.y)} {}
+};
+
 /// v_{n+1/2} = v_{n-1/2} + a_n (h_n + h_{n+1}) / 2.
 struct CentralDifference {
   const NodeTask& task;
 
   template <class Real>
-  Vector<Real> next_velocity(Index, Vector<Real> before, Vector<Real> acceleration) const {
-    return before + Real(task.span) * acceleration;
+  Vector<Real> next_velocity(const Constants<Real>& k, Index, Vector<Real> before, Vector<Real> acceleration) const {
+    return before + k.span * acceleration;
   }
 
   /// v_{n-1/2} . v_{n+1/2} as if the next step were as long as the last: with the velocity after a step of another
   /// length the energy at t_n would be wrong to first order.
   template <class Real>
-  void book(NodeLaneSums& sums, Index i, Real mass, const Node<Real>& node, Vector<Real> before,
-            Vector<Real> acceleration) const {
-    sums.kinetic.add(mass * dot(before, before + Real(task.last_step) * acceleration), i);
+  void book(const Constants<Real>& k, NodeLaneSums& sums, Index i, Real mass, const Node<Real>& node,
+            Vector<Real> before, Vector<Real> acceleration) const {
+    sums.kinetic.add(mass * dot(before, before + k.last_step * acceleration), i);
     sums.spin.add(mass * cross(node.place, acceleration), i);
   }
   /// v_n = v_{n+1/2} - a_n h_{n+1} / 2.
@@ -125,7 +135,7 @@ struct Multistep {
   const NodeTask& task;
 
   template <class Real>
-  Vector<Real> next_velocity(Index i, Vector<Real> before, Vector<Real> acceleration) const {
+  Vector<Real> next_velocity(const Constants<Real>&, Index i, Vector<Real> before, Vector<Real> acceleration) const {
     using On = Access<Real>;
     Vector<Real> v = On::load(task.velocity + i);
     const Vector<Real> a0 = On::load(task.acceleration + i);
@@ -144,7 +154,8 @@ struct Multistep {
   }
 
   template <class Real>
-  void book(NodeLaneSums& sums, Index i, Real mass, const Node<Real>& node, Vector<Real>, Vector<Real>) const {
+  void book(const Constants<Real>&, NodeLaneSums& sums, Index i, Real mass, const Node<Real>& node, Vector<Real>,
+            Vector<Real>) const {
     const Vector<Real> v = Access<Real>::load(task.velocity + i);
     const Vector<Real> momentum = mass * v;
     sums.kinetic.add(dot(momentum, v), i);
@@ -177,7 +188,8 @@ void sum_forces(const NodeTask& task, Vec2* internal) {
 
 /// One pack of nodes, or a single one.
 template <class Real, class Rule>
-void accelerate(const NodeTask& task, const Rule& rule, Index i, const Vec2* internal, NodeLaneSums& sums) {
+void accelerate(const NodeTask& task, const Constants<Real>& k, const Rule& rule, Index i, const Vec2* internal,
+                NodeLaneSums& sums) {
   using On = Access<Real>;
   Node<Real> node = On::load(task.nodes + i);
   const Vector<Real> before = node.velocity;
@@ -190,16 +202,15 @@ void accelerate(const NodeTask& task, const Rule& rule, Index i, const Vec2* int
     damping = (Real(-task.damping) * mass) * (before - reference);
     force = force + damping;
   }
-  const Vector<Real> gravity{Real(task.gravity.x), Real(task.gravity.y)};
-  const Vector<Real> acceleration = On::load(task.inverse_mass + i) * force + gravity;
-  const Vector<Real> after = rule.next_velocity(i, before, acceleration);
-  node.place = node.place + Real(task.last_step) * before;
+  const Vector<Real> acceleration = On::load(task.inverse_mass + i) * force + k.gravity;
+  const Vector<Real> after = rule.next_velocity(k, i, before, acceleration);
+  node.place = node.place + k.last_step * before;
   node.velocity = after;
   On::store(node, task.nodes + i);
   On::store(acceleration, task.acceleration + i);
 
   sums.internal_power.add(dot(inside, before + after), i);
-  rule.book(sums, i, mass, node, before, acceleration);
+  rule.book(k, sums, i, mass, node, before, acceleration);
   const Vector<Real> carried = mass * after;
   sums.kinetic_after.add(dot(carried, after), i);
   add(sums.carried_x, sums.carried_y, carried, i);
@@ -219,9 +230,11 @@ template <class Rule>
   Vec2 internal[nodes_per_block];
   sum_forces(task, internal);
   NodeLaneSums sums;
+  const Constants<Pack> in_packs(task);
+  const Constants<double> alone(task);
   Index i = 0;
-  for (; i + Pack::lanes <= task.count; i += Pack::lanes) accelerate<Pack>(task, rule, i, internal, sums);
-  for (; i < task.count; ++i) accelerate<double>(task, rule, i, internal, sums);
+  for (; i + Pack::lanes <= task.count; i += Pack::lanes) accelerate(task, in_packs, rule, i, internal, sums);
+  for (; i < task.count; ++i) accelerate(task, alone, rule, i, internal, sums);
 
   NodeSums total{.internal_power = sums.internal_power.total(),
                  .kinetic = sums.kinetic.total(),

@@ -80,9 +80,11 @@ void store_stress(const ElementTask& task, Index i, const SymTensor<Pack>& s) {
   s.zz.store(task.zz + i);
 }
 
-/// Strain and turn of a pack of elements.
-void strain(Index i, const Sides<Pack>& start, const Sides<Pack>& change, BlockBuffer& buffer, LaneSums& sums) {
+/// Strain and turn of a pack of elements. Its stress is asked for meanwhile: the next loop wants it at hand.
+void strain(const ElementTask& task, Index i, const Sides<Pack>& start, const Sides<Pack>& change, BlockBuffer& buffer,
+            LaneSums& sums) {
   const StrainStep<Pack> e = strain_step(start.after(Pack(0.5), change), change);
+  for (const double* component : {task.xx, task.yy, task.xy, task.zz}) __builtin_prefetch(component + i, 1);
   const Index p = LaneSums::pack_of(i);
   sums.smallest_area[p] = smaller(sums.smallest_area[p], e.twice_area);
   sums.stretch[p] = larger(sums.stretch[p], stretch_squared(e));
@@ -114,8 +116,7 @@ void flow(const ElementTask& task, Index i, const Law& law, const StrainStep<Pac
   const Pack volume = Pack(task.half_thickness) * e.twice_area;
   const Index p = LaneSums::pack_of(i);
   sums.plastic_work[p] = sums.plastic_work[p] + volume * after.plastic_work;
-  sums.stress_work[p] =
-      sums.stress_work[p] + Pack(0.5) * volume * stress_work(after.stress - trial, e);
+  sums.stress_work[p] = sums.stress_work[p] + Pack(0.5) * volume * stress_work(after.stress - trial, e);
   std::uint8_t& byte = task.flowing[i / lanes];
   byte = static_cast<std::uint8_t>(byte | bits(law.flows(trial)) << i % lanes);
 }
@@ -191,8 +192,8 @@ template <class Law, bool paired>
   LaneSums sums;
   for (Index q = 0; q < task.count; q += Pack::lanes) {
     const QuadSides quads = gather(task, q);
-    strain(q, quads.sides(1, 2), quads.change(1, 2, h), buffer, sums);
-    if constexpr (paired) strain(task.count + q, quads.sides(3, 1), quads.change(3, 1, h), buffer, sums);
+    strain(task, q, quads.sides(1, 2), quads.change(1, 2, h), buffer, sums);
+    if constexpr (paired) strain(task, task.count + q, quads.sides(3, 1), quads.change(3, 1, h), buffer, sums);
   }
   Index flowing = 0;
   for (Index i = 0; i < elements; i += Pack::lanes) {
