@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "udar/base/sym_tensor.hpp"
 #include "udar/case/build_model.hpp"
 #include "udar/case/case_file.hpp"
 #include "udar/step/step.hpp"
@@ -41,5 +42,12 @@ struct Run {
   Workspace work;
   State state;
 };
+
+/// R s R^T.
+inline SymTensor<double> turned(const SymTensor<double>& s, Turn r) {
+  const double cross = 2 * r.cos * r.sin * s.xy;
+  return {r.cos * r.cos * s.xx - cross + r.sin * r.sin * s.yy, r.sin * r.sin * s.xx + cross + r.cos * r.cos * s.yy,
+          r.cos * r.sin * (s.xx - s.yy) + (r.cos * r.cos - r.sin * r.sin) * s.xy, s.zz};
+}
 
 }  // namespace udar::verification

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "problem.hpp"
-#include "udar/step/element_kernels.hpp"
 #include "udar/step/stages.hpp"
 
 namespace udar::verification {
@@ -31,13 +30,6 @@ struct Turned {
   double place = 0;     // m, largest distance of a node from where the turn carries it
 };
 
-/// R s R^T.
-SymTensor<double> turned(const SymTensor<double>& s, double cos, double sin) {
-  const double cross = 2 * cos * sin * s.xy;
-  return {cos * cos * s.xx - cross + sin * sin * s.yy, sin * sin * s.xx + cross + cos * cos * s.yy,
-          cos * sin * (s.xx - s.yy) + (cos * cos - sin * sin) * s.xy, s.zz};
-}
-
 Turned turn_squares(double angle_per_step, int steps) {
   Run run(turning(angle_per_step, steps));
   // A stress of the order of E, so that 1e-12 of it stands above the rounding of strains, 1e-16 E.
@@ -59,7 +51,7 @@ Turned turn_squares(double angle_per_step, int steps) {
     const State& s = run.state;
     for (const Body& body : run.model.bodies) {
       const bool is_stressed = &body == &stressed;
-      const SymTensor<double> exact = is_stressed ? turned(s0, turn.cos, turn.sin) : SymTensor<double>{};
+      const SymTensor<double> exact = is_stressed ? turned(s0, turn) : SymTensor<double>{};
       for (Index e = body.element_begin; e < body.element_end; ++e) {
         const double off = std::max({std::fabs(s.stress_xx[e] - exact.xx), std::fabs(s.stress_yy[e] - exact.yy),
                                      std::fabs(s.stress_xy[e] - exact.xy), std::fabs(s.stress_zz[e] - exact.zz)});

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "problem.hpp"
-#include "udar/step/element_kernels.hpp"
 
 namespace udar::verification {
 namespace {
@@ -21,7 +20,7 @@ struct View {
   [[nodiscard]] Vec2 direction(Vec2 v) const { return turn * Vec2{mirrored ? -v.x : v.x, v.y}; }
   [[nodiscard]] SymTensor<double> stress(SymTensor<double> s) const {
     if (mirrored) s.xy = -s.xy;
-    return turned(s, turn.cos, turn.sin);
+    return turned(s, turn);
   }
 };
 
