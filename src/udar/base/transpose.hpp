@@ -21,8 +21,6 @@ struct Columns {
 
 #if defined(__AVX512F__)
 
-using HalfVector = double __attribute__((vector_size(32)));
-
 /// Two records in one register. The second one is inserted straight from memory: the shuffle that compilers make of two
 /// loads takes the only port that can shuffle.
 inline Pack two_records(const double* low, const double* high) {
@@ -40,10 +38,8 @@ template <class Address>
 void store_records(const Records& r, Address address) {
   constexpr int first[] = {0, 1, 4, 5};
   for (int k = 0; k < 4; ++k) {
-    const HalfVector low = __builtin_shufflevector(r.part[k].v, r.part[k].v, 0, 1, 2, 3);
-    const HalfVector high = __builtin_shufflevector(r.part[k].v, r.part[k].v, 4, 5, 6, 7);
-    __builtin_memcpy(address(first[k]), &low, sizeof low);
-    __builtin_memcpy(address(first[k] + 2), &high, sizeof high);
+    _mm256_storeu_pd(address(first[k]), _mm512_castpd512_pd256(r.part[k].v));
+    _mm256_storeu_pd(address(first[k] + 2), _mm512_extractf64x4_pd(r.part[k].v, 1));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "udar/base/array.hpp"
 #include "udar/base/vec2.hpp"
 #include "udar/contact/penalty.hpp"
 #include "udar/mesh/mesh.hpp"
@@ -78,24 +79,24 @@ struct Clock {
 /// that carries the nodes to x_{n+1}.
 struct State {
   Clock clock;
-  std::vector<NodeRecord> nodes;   ///< padding nodes at the end
-  std::vector<Vec2> acceleration;  ///< m/s2, a_n
-  std::vector<Vec2> external;      ///< N, contact, loads and supports
+  Array<NodeRecord> nodes;   ///< padding nodes at the end
+  Array<Vec2> acceleration;  ///< m/s2, a_n
+  Array<Vec2> external;      ///< N, contact, loads and supports
 
   // Adams integrators only, else empty.
-  std::vector<Vec2> velocity;             ///< m/s, v_n
-  std::vector<Vec2> velocity_before;      ///< m/s, mean over the last step
-  std::vector<Vec2> last_acceleration;    ///< m/s2, a_{n-1}
-  std::vector<Vec2> second_acceleration;  ///< m/s2, a_{n-2}
+  Array<Vec2> velocity;             ///< m/s, v_n
+  Array<Vec2> velocity_before;      ///< m/s, mean over the last step
+  Array<Vec2> last_acceleration;    ///< m/s2, a_{n-1}
+  Array<Vec2> second_acceleration;  ///< m/s2, a_{n-2}
 
   // Elements, padded.
-  std::vector<double> stress_xx;  ///< Pa, fixed axes
-  std::vector<double> stress_yy;
-  std::vector<double> stress_xy;
-  std::vector<double> stress_zz;
-  std::vector<double> plastic_strain;
-  std::vector<std::uint8_t> flowing;      ///< bit e % 8 of byte e / 8: element e flowed in the last step
-  std::vector<FrequencyBound> frequency;  ///< one for each block of elements
+  Array<double> stress_xx;  ///< Pa, fixed axes
+  Array<double> stress_yy;
+  Array<double> stress_xy;
+  Array<double> stress_zz;
+  Array<double> plastic_strain;
+  Array<std::uint8_t> flowing;      ///< bit e % 8 of byte e / 8: element e flowed in the last step
+  Array<FrequencyBound> frequency;  ///< one for each block of elements
 
   std::vector<SpringState> contacts;  ///< obstacle by obstacle, one for each contact node
   std::vector<ObstacleBook> obstacles;

@@ -17,10 +17,7 @@ struct Sides {
 
   [[nodiscard]] Real twice_area() const { return x1 * y2 - x2 * y1; }
 
-  /// These sides after a part of a change.
-  [[nodiscard]] Sides after(Real part, const Sides& change) const {
-    return {x1 + part * change.x1, y1 + part * change.y1, x2 + part * change.x2, y2 + part * change.y2};
-  }
+  friend Sides operator+(const Sides& a, const Sides& b) { return {a.x1 + b.x1, a.y1 + b.y1, a.x2 + b.x2, a.y2 + b.y2}; }
 };
 
 /// Strain increment of a step and the turn that goes with it.
@@ -31,23 +28,23 @@ struct StrainStep {
   Real twice_area;   ///< m2, of the triangle in the middle of the step
 };
 
-/// Strain increment from the sides in the middle of the step and their change during it: with gradients on the middle
-/// triangle a rigid turn gives exactly no strain, and the exact turn follows without sine or cosine (Hughes and Winget
+/// Strain increment from the sides in the middle of the step and their change during half of it: with gradients on the
+/// middle triangle a rigid turn gives exactly no strain, and the exact turn follows without sine or cosine (Hughes and Winget
 /// 1980, eqs. 20-27). With D twice the area and N = D (v,x - u,y) / 4 the tangent of half the turn is N / D; 1 / D and
 /// 1 / (D^2 + N^2) come from a single division, the slowest of all operations here.
 template <class Real>
 StrainStep<Real> strain_step(const Sides<Real>& mid, const Sides<Real>& change) {
   const Real d = mid.twice_area();
-  // Displacement gradient times D.
+  // Displacement gradient times D / 2.
   const Real u_x = change.x1 * mid.y2 - change.x2 * mid.y1;
   const Real u_y = change.x2 * mid.x1 - change.x1 * mid.x2;
   const Real v_x = change.y1 * mid.y2 - change.y2 * mid.y1;
   const Real v_y = change.y2 * mid.x1 - change.y1 * mid.x2;
-  const Real n = Real(0.25) * (v_x - u_y);
+  const Real n = Real(0.5) * (v_x - u_y);
   const Real squares = d * d + n * n;
-  const Real reciprocal = Real(1) / (d * squares);
-  const Real inverse = squares * reciprocal;      // 1 / D
-  const Real twice = (d + d) * (d * reciprocal);  // 2 D / (D^2 + N^2)
+  const Real reciprocal = Real(2) / (d * squares);
+  const Real inverse = squares * reciprocal;  // 2 / D
+  const Real twice = d * (d * reciprocal);    // 2 D / (D^2 + N^2)
   return {u_x * inverse, v_y * inverse, (u_y + v_x) * inverse, d * twice - Real(1), n * twice, d};
 }
 

@@ -14,7 +14,7 @@ namespace udar {
 struct QuadForces {
   explicit QuadForces(const Model& model);
 
-  std::vector<Vec2> forces;            ///< N
+  Array<Vec2> forces;                  ///< N
   std::vector<std::uint32_t> offsets;  ///< those of node i are slots[offsets[i]] to slots[offsets[i + 1] - 1]
   std::vector<std::uint32_t> slots;    ///< places in `forces`
 

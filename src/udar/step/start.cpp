@@ -17,8 +17,8 @@ State rest_state(const Model& model) {
   state.acceleration.resize(nodes);
   state.external.resize(nodes);
   if (rule_of(model.run.integrator).weights != nullptr) {
-    state.velocity = model.start_velocity;
-    state.velocity_before = model.start_velocity;
+    state.velocity.assign(model.start_velocity.begin(), model.start_velocity.end());
+    state.velocity_before = state.velocity;
     state.last_acceleration.resize(nodes);
     state.second_acceleration.resize(nodes);
   }

@@ -13,12 +13,14 @@ namespace {
 struct QuadSides {
   Columns to[3];
 
-  /// Sides to corners `one` and `two` at the start of the step.
-  [[nodiscard]] Sides<Pack> sides(int one, int two) const {
+  /// Sides to corners `one` and `two` at the start of the step, and what a time changes them by.
+  [[nodiscard]] Sides<Pack> start(int one, int two) const {
     return {to[one - 1].at[0], to[one - 1].at[1], to[two - 1].at[0], to[two - 1].at[1]};
   }
-  [[nodiscard]] Sides<Pack> change(int one, int two, Pack h) const {
-    return {h * to[one - 1].at[2], h * to[one - 1].at[3], h * to[two - 1].at[2], h * to[two - 1].at[3]};
+  [[nodiscard]] Sides<Pack> change(int one, int two, Pack time) const {
+    const Columns& a = to[one - 1];
+    const Columns& b = to[two - 1];
+    return {time * a.at[2], time * a.at[3], time * b.at[2], time * b.at[3]};
   }
 };
 
@@ -81,14 +83,15 @@ void store_stress(const ElementTask& task, Index i, const SymTensor<Pack>& s) {
 }
 
 /// Strain and turn of a pack of elements. Its stress is asked for meanwhile: the next loop wants it at hand.
-void strain(const ElementTask& task, Index i, const Sides<Pack>& start, const Sides<Pack>& change, BlockBuffer& buffer,
-            LaneSums& sums) {
-  const StrainStep<Pack> e = strain_step(start.after(Pack(0.5), change), change);
+void strain(const ElementTask& task, Index i, const Sides<Pack>& start, const Sides<Pack>& half_change,
+            BlockBuffer& buffer, LaneSums& sums) {
+  const Sides<Pack> mid = start + half_change;
+  const StrainStep<Pack> e = strain_step(mid, half_change);
   for (const double* component : {task.xx, task.yy, task.xy, task.zz}) __builtin_prefetch(component + i, 1);
   const Index p = LaneSums::pack_of(i);
   sums.smallest_area[p] = smaller(sums.smallest_area[p], e.twice_area);
   sums.stretch[p] = larger(sums.stretch[p], stretch_squared(e));
-  buffer.sides[i / Pack::lanes] = start.after(Pack(1), change);
+  buffer.sides[i / Pack::lanes] = mid + half_change;
   buffer.strains[i / Pack::lanes] = e;
 }
 
@@ -98,9 +101,9 @@ bool try_elastic(const ElementTask& task, Index i, const Law& law, const StrainS
   const SymTensor<Pack> before = load_stress(task, i);
   const SymTensor<Pack> trial = elastic_trial(before, e, law.elasticity());
   store_stress(task, i, trial);
-  const Pack volume = Pack(task.half_thickness) * e.twice_area;
+  const Pack half_volume = Pack(0.5 * task.half_thickness) * e.twice_area;
   Pack& work = sums.stress_work[LaneSums::pack_of(i)];
-  work = work + Pack(0.5) * volume * stress_work(before + trial, e);
+  work = work + half_volume * stress_work(before + trial, e);
   return any(law.flows(trial));
 }
 
@@ -186,14 +189,14 @@ void bound_frequency(const ElementTask& task, Index elements, const Elasticity& 
 template <class Law, bool paired>
 [[gnu::flatten]] ElementSums deform_block(const ElementTask& task, const void* untyped_law) {
   const Law law = *static_cast<const Law*>(untyped_law);
-  const Pack h(task.step);
+  const Pack half_step(0.5 * task.step);
   const Index elements = paired ? 2 * task.count : task.count;
   BlockBuffer buffer;
   LaneSums sums;
   for (Index q = 0; q < task.count; q += Pack::lanes) {
     const QuadSides quads = gather(task, q);
-    strain(task, q, quads.sides(1, 2), quads.change(1, 2, h), buffer, sums);
-    if constexpr (paired) strain(task, task.count + q, quads.sides(3, 1), quads.change(3, 1, h), buffer, sums);
+    strain(task, q, quads.start(1, 2), quads.change(1, 2, half_step), buffer, sums);
+    if constexpr (paired) strain(task, task.count + q, quads.start(3, 1), quads.change(3, 1, half_step), buffer, sums);
   }
   Index flowing = 0;
   for (Index i = 0; i < elements; i += Pack::lanes) {
