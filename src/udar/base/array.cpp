@@ -14,10 +14,11 @@ void* allocate_lines(std::size_t bytes) {
   constexpr std::size_t large_page = std::size_t{1} << 21;
   const bool large = bytes >= 2 * large_page;
   const std::size_t unit = large ? large_page : line;
-  void* memory = std::aligned_alloc(unit, (bytes + unit - 1) / unit * unit);
+  const std::size_t whole = (bytes + unit - 1) / unit * unit;
+  void* memory = std::aligned_alloc(unit, whole);
   if (memory == nullptr) throw std::bad_alloc();
 #if defined(__linux__)
-  if (large) madvise(memory, bytes, MADV_HUGEPAGE);  // only a wish
+  if (large) madvise(memory, whole, MADV_HUGEPAGE);  // only a wish
 #endif
   return memory;
 }

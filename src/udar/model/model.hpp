@@ -123,16 +123,16 @@ struct Model {
   Index node_count = 0;
   std::vector<Vec2> rest;            ///< m, undeformed places
   std::vector<Vec2> start_velocity;  ///< m/s
-  Array<double> mass;          ///< kg
-  Array<double> inverse_mass;  ///< 1/kg
+  Array<double> mass;                ///< kg
+  Array<double> inverse_mass;        ///< 1/kg
   std::vector<Index> node_numbers;   ///< the user's numbers, from 0 in each body
 
   // Elements, padded.
   Index element_count = 0;  ///< without padding
   std::vector<std::array<Index, 3>> corners;
-  Array<Quad> quads;             ///< the same corners as the element sweep reads them, block by block
-  Array<double> area_density;    ///< kg/m: density x undeformed area, constant since masses are
-  Array<double> contact_spring;  ///< 1/s2: what contact springs at its nodes add to an element's frequency^2
+  Array<Quad> quads;                   ///< the same corners as the element sweep reads them, block by block
+  Array<double> area_density;          ///< kg/m: density x undeformed area, constant since masses are
+  Array<double> contact_spring;        ///< 1/s2: what contact springs at its nodes add to an element's frequency^2
   std::vector<Index> element_numbers;  ///< the user's numbers
 
   // Contact: the outer nodes of all bodies may touch every obstacle.

@@ -75,13 +75,20 @@ void Pool::share_out(const Job& job) {
   if (first) std::rethrow_exception(first);
 }
 
-void Pool::run_share(std::size_t thread) {
+std::size_t Pool::begin_of(std::size_t blocks, std::size_t thread) const {
   const std::size_t threads = thrown_.size();
-  const auto begin_of = [&](std::size_t t) {
-    return job_.blocks / threads * t + job_.blocks % threads * t / threads;  // blocks * t / threads, without overflow
-  };
+  return blocks / threads * thread + blocks % threads * thread / threads;  // blocks * thread / threads, no overflow
+}
+
+std::size_t Pool::thread_of(std::size_t blocks, std::size_t block) const {
+  std::size_t thread = 0;
+  while (begin_of(blocks, thread + 1) <= block) ++thread;
+  return thread;
+}
+
+void Pool::run_share(std::size_t thread) {
   try {
-    job_.run(job_.function, begin_of(thread), begin_of(thread + 1));
+    job_.run(job_.function, begin_of(job_.blocks, thread), begin_of(job_.blocks, thread + 1));
   } catch (...) {
     thrown_[thread] = std::current_exception();
   }

@@ -30,21 +30,30 @@ class Pool {
 
   [[nodiscard]] int threads() const { return static_cast<int>(workers_.size()) + 1; }
 
-  /// Calls f(block) for every block in 0 .. blocks - 1; each thread takes one run of neighbours, always the same one.
+  /// Calls f(block) for every block in 0 .. blocks - 1; each thread takes the run of neighbours that `thread_of` says.
   /// Returns when all are done. What f throws is thrown here (of several, that of the lowest run); the rest of a run
   /// that threw is left out. Not to be called from within f, nor from two threads at once. Allocates nothing.
   template <class F>
   void for_each_block(std::size_t blocks, F&& f) {
-    if (workers_.empty()) {
-      for (std::size_t block = 0; block < blocks; ++block) f(block);
-      return;
-    }
+    for_each_run(blocks, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t block = begin; block < end; ++block) f(block);
+    });
+  }
+
+  /// The same, with f(begin, end) called once for each run of neighbours that is not empty.
+  template <class F>
+  void for_each_run(std::size_t blocks, F&& f) {
+    if (blocks == 0) return;
+    if (workers_.empty()) return f(0, blocks);
     using Function = std::remove_reference_t<F>;
     const auto run = [](void* function, std::size_t begin, std::size_t end) {
-      for (std::size_t block = begin; block < end; ++block) (*static_cast<Function*>(function))(block);
+      if (begin < end) (*static_cast<Function*>(function))(begin, end);
     };
     share_out({run, const_cast<void*>(static_cast<const void*>(std::addressof(f))), blocks});
   }
+
+  /// Which thread takes a block of so many.
+  [[nodiscard]] std::size_t thread_of(std::size_t blocks, std::size_t block) const;
 
  private:
   struct Job {
@@ -52,6 +61,8 @@ class Pool {
     void* function = nullptr;
     std::size_t blocks = 0;
   };
+  /// First block of a thread's run.
+  [[nodiscard]] std::size_t begin_of(std::size_t blocks, std::size_t thread) const;
   void share_out(const Job& job);
   void run_share(std::size_t thread);
   void work(std::size_t thread);

@@ -72,11 +72,9 @@ void sum_bodies(const Model& model, State& state, const Workspace& work) {
 }
 
 /// What all blocks of nodes have in common.
-NodeTask common_task(const Model& model, const State& state, const Workspace& work) {
+NodeTask common_task(const Model& model, const State& state) {
   const Clock& clock = state.clock;
-  NodeTask task{.slots = work.forces.slots.data(),
-                .forces = work.forces.forces.data(),
-                .last_step = clock.last_step,
+  NodeTask task{.last_step = clock.last_step,
                 .next_step = clock.next_step,
                 .span = velocity_span(clock),
                 .first = clock.step == 0,
@@ -97,7 +95,7 @@ NodeTask common_task(const Model& model, const State& state, const Workspace& wo
 void accelerate_nodes(const Model& model, State& state, Workspace& work) {
   const bool multistep = rule_of(model.run.integrator).weights != nullptr;
   const NodeKernel kernel = multistep ? work.kernels.multistep : work.kernels.central_difference;
-  const NodeTask common = common_task(model, state, work);
+  const NodeTask common = common_task(model, state);
   work.pool.for_each_block(model.node_blocks.size(), [&](std::size_t b) {
     const NodeBlock& block = model.node_blocks[b];
     NodeTask task = common;
@@ -105,8 +103,8 @@ void accelerate_nodes(const Model& model, State& state, Workspace& work) {
     task.nodes = &state.nodes[block.begin];
     task.mass = &model.mass[block.begin];
     task.inverse_mass = &model.inverse_mass[block.begin];
-    task.external = &state.external[block.begin];
-    task.offsets = &work.forces.offsets[block.begin];
+    task.internal = &work.forces.internal[block.begin];
+    task.external = work.pushed[b] != 0 ? &state.external[block.begin] : nullptr;
     task.acceleration = &state.acceleration[block.begin];
     if (multistep) {
       task.velocity = &state.velocity[block.begin];

@@ -20,7 +20,7 @@ void add_support_force(const Model& model, State& state, Workspace& work) {
       const Vec2 rest = model.rest[node];
       const Vec2 target = support.turns ? support.centre + turn * (rest - support.centre) : rest + displacement;
       const Vec2 wanted = (1 / clock.next_step) * (target - place_after(record, clock.last_step));
-      const Vec2 force = work.forces.sum(node) + state.external[node] + model.mass[node] * model.run.gravity +
+      const Vec2 force = work.forces.internal[node] + state.external[node] + model.mass[node] * model.run.gravity +
                          damping_force(model, state, node, rate, damping_reference(model, state, support.body));
       const Vec2 reaction = (model.mass[node] / span) * (wanted - before) - force;
       Vec2& held = state.support_forces[first + k];

@@ -63,19 +63,17 @@ struct NodeTask {
   NodeRecord* nodes;
   const double* mass;
   const double* inverse_mass;
-  const Vec2* external;          ///< N
-  const std::uint32_t* offsets;  ///< of QuadForces
-  const std::uint32_t* slots;    ///< all of QuadForces
-  const Vec2* forces;            ///< N, all corner forces
-  Vec2* acceleration;            ///< m/s2
-  Vec2* velocity;                ///< m/s; this and the next three for the Adams rules only
-  Vec2* velocity_before;         ///< m/s
-  Vec2* last_acceleration;       ///< m/s2
-  Vec2* second_acceleration;     ///< m/s2
-  double last_step;              ///< s, h_n
-  double next_step;              ///< s, h_{n+1}
-  double span;                   ///< s, from the middle of the last step to the middle of the coming one
-  StepWeights done;              ///< Adams rules only
+  const Vec2* external;       ///< N; null where nothing can push any of the nodes
+  const Vec2* internal;       ///< N
+  Vec2* acceleration;         ///< m/s2
+  Vec2* velocity;             ///< m/s; this and the next three for the Adams rules only
+  Vec2* velocity_before;      ///< m/s
+  Vec2* last_acceleration;    ///< m/s2
+  Vec2* second_acceleration;  ///< m/s2
+  double last_step;           ///< s, h_n
+  double next_step;           ///< s, h_{n+1}
+  double span;                ///< s, from the middle of the last step to the middle of the coming one
+  StepWeights done;           ///< Adams rules only
   StepWeights coming;
   bool first;              ///< t = 0: no step was done yet
   Vec2 gravity;            ///< m/s2

@@ -17,7 +17,7 @@ BlockKernels widest_block_kernels() {
 }
 
 void deform_elements(const Model& model, State& state, Workspace& work) {
-  work.pool.for_each_block(model.element_blocks.size(), [&](std::size_t b) {
+  work.forces.for_each_block(work.pool, [&](std::size_t b) {
     const ElementBlock& block = model.element_blocks[b];
     const Body& body = model.bodies[block.body];
     const ElementTask task{.nodes = state.nodes.data(),
@@ -33,7 +33,7 @@ void deform_elements(const Model& model, State& state, Workspace& work) {
                            .zz = &state.stress_zz[block.begin],
                            .plastic_strain = &state.plastic_strain[block.begin],
                            .flowing = &state.flowing[block.begin / lanes],
-                           .forces = &work.forces.forces[4 * std::size_t{block.quads}],
+                           .forces = work.forces.of_block(b),
                            .first_element = block.begin,
                            .compute_above = state.clock.compute_above,
                            .frequency = &state.frequency[b]};

@@ -17,7 +17,9 @@ struct Sides {
 
   [[nodiscard]] Real twice_area() const { return x1 * y2 - x2 * y1; }
 
-  friend Sides operator+(const Sides& a, const Sides& b) { return {a.x1 + b.x1, a.y1 + b.y1, a.x2 + b.x2, a.y2 + b.y2}; }
+  friend Sides operator+(const Sides& a, const Sides& b) {
+    return {a.x1 + b.x1, a.y1 + b.y1, a.x2 + b.x2, a.y2 + b.y2};
+  }
 };
 
 /// Strain increment of a step and the turn that goes with it.
@@ -29,9 +31,9 @@ struct StrainStep {
 };
 
 /// Strain increment from the sides in the middle of the step and their change during half of it: with gradients on the
-/// middle triangle a rigid turn gives exactly no strain, and the exact turn follows without sine or cosine (Hughes and Winget
-/// 1980, eqs. 20-27). With D twice the area and N = D (v,x - u,y) / 4 the tangent of half the turn is N / D; 1 / D and
-/// 1 / (D^2 + N^2) come from a single division, the slowest of all operations here.
+/// middle triangle a rigid turn gives exactly no strain, and the exact turn follows without sine or cosine (Hughes and
+/// Winget 1980, eqs. 20-27). With D twice the area and N = D (v,x - u,y) / 4 the tangent of half the turn is N / D; 1 /
+/// D and 1 / (D^2 + N^2) come from a single division, the slowest of all operations here.
 template <class Real>
 StrainStep<Real> strain_step(const Sides<Real>& mid, const Sides<Real>& change) {
   const Real d = mid.twice_area();

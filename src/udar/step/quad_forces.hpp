@@ -3,27 +3,65 @@
 #include <cstdint>
 #include <vector>
 
+#include "udar/base/array.hpp"
 #include "udar/model/model.hpp"
+#include "udar/parallel/for_each.hpp"
 
 namespace udar {
 
-/// Where the forces of a quad's four corners stand, and which of them meet at each node. They are written as whole
-/// vectors: for each eight quads first all forces on their corners 0, then on 1, 2 and 3; within eight first those of
-/// the quads with even numbers, then the odd ones, as interleaving x and y leaves them. A node sums those of its
-/// corners in the order of the quads: no two threads write the same place, and the order does not depend on them.
-struct QuadForces {
-  explicit QuadForces(const Model& model);
+/// Forces of elements on their corners, and their sums at the nodes.
+///
+/// A block of elements writes the forces of its quads as whole vectors: for each eight quads first all on their corners
+/// 0, then on 1, 2 and 3; within eight first those of the quads with even numbers, then the odd ones, as interleaving x
+/// and y leaves them. A node sums those of its corners in the order of the quads: no two threads write one place, and
+/// the order does not depend on who does it or when.
+///
+/// A block of nodes is summed as soon as the last of its elements is done, while their forces are still in the cache;
+/// what they were written to then serves other blocks. So forces never travel to main memory, which bounds the speed of
+/// large meshes. Nodes between the elements of two threads have to wait until both are done.
+class QuadForces {
+ public:
+  QuadForces(const Model& model, const Pool& pool);
 
-  Array<Vec2> forces;                  ///< N
-  std::vector<std::uint32_t> offsets;  ///< those of node i are slots[offsets[i]] to slots[offsets[i + 1] - 1]
-  std::vector<std::uint32_t> slots;    ///< places in `forces`
+  /// Where an element block writes its forces, N: four for each quad.
+  [[nodiscard]] Vec2* of_block(std::size_t block) { return forces_.data() + forces_per_block * place_[block]; }
 
-  /// Sum of the corner forces at a node, N.
-  [[nodiscard]] Vec2 sum(Index node) const {
-    Vec2 sum;
-    for (std::uint32_t k = offsets[node]; k < offsets[node + 1]; ++k) sum += forces[slots[k]];
-    return sum;
+  /// Calls deform(block) for every element block and sums the forces at all nodes.
+  template <class Deform>
+  void for_each_block(Pool& pool, Deform&& deform) {
+    pool.for_each_run(element_blocks_, [&](std::size_t begin, std::size_t end) {
+      std::size_t next = first_done_after(begin);
+      for (std::size_t block = begin; block < end; ++block) {
+        deform(block);
+        for (; next < early_.size() && early_[next].after == block; ++next) sum(early_[next].nodes);
+      }
+    });
+    pool.for_each_block(late_.size(), [&](std::size_t k) { sum(late_[k]); });
   }
+
+  Array<Vec2> internal;  ///< N, sum of the corner forces at each node
+
+ private:
+  static constexpr std::size_t forces_per_block = 4 * std::size_t{elements_per_block};
+
+  /// A block of nodes that is complete after an element block, both of one thread.
+  struct Early {
+    std::size_t after;
+    std::size_t nodes;
+  };
+  [[nodiscard]] std::size_t first_done_after(std::size_t block) const;
+  void plan(const Model& model, const Pool& pool);
+  void number(const Model& model);
+  void sum(std::size_t node_block);
+
+  std::size_t element_blocks_;
+  const std::vector<NodeBlock>& node_blocks_;
+  std::vector<Early> early_;            ///< in the order in which they are complete
+  std::vector<std::size_t> late_;       ///< blocks of nodes that more than one thread has elements at
+  std::vector<std::size_t> place_;      ///< of each element block's forces, in units of a full block
+  Array<Vec2> forces_;                  ///< N
+  std::vector<std::uint32_t> offsets_;  ///< those of node i are slots_[offsets_[i]] to slots_[offsets_[i + 1] - 1]
+  std::vector<std::uint32_t> slots_;    ///< places in `forces_`
 };
 
 }  // namespace udar

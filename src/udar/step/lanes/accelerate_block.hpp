@@ -165,37 +165,16 @@ struct Multistep {
   static void finish(NodeSums&) {}
 };
 
-/// Sums of the corner forces at each node, in the order of the quads, N.
-void sum_forces(const NodeTask& task, Vec2* internal) {
-  using Two = double __attribute__((vector_size(16)));
-  const auto force = [forces = task.forces](std::uint32_t slot) {
-    Two f;
-    __builtin_memcpy(&f, &forces[slot].x, sizeof f);
-    return f;
-  };
-  const std::uint32_t* slot = task.slots + task.offsets[0];
-  for (Index i = 0; i < task.count; ++i) {
-    const std::uint32_t* const end = task.slots + task.offsets[i + 1];
-    Two sum{};
-    if (end - slot == 4) {  // by far the most
-      sum = ((force(slot[0]) + force(slot[1])) + force(slot[2])) + force(slot[3]);
-      slot = end;
-    }
-    for (; slot != end; ++slot) sum += force(*slot);
-    __builtin_memcpy(&internal[i].x, &sum, sizeof sum);
-  }
-}
-
 /// One pack of nodes, or a single one.
 template <class Real, class Rule>
-void accelerate(const NodeTask& task, const Constants<Real>& k, const Rule& rule, Index i, const Vec2* internal,
-                NodeLaneSums& sums) {
+void accelerate(const NodeTask& task, const Constants<Real>& k, const Rule& rule, Index i, NodeLaneSums& sums) {
   using On = Access<Real>;
   Node<Real> node = On::load(task.nodes + i);
   const Vector<Real> before = node.velocity;
   const Real mass = On::load(task.mass + i);
-  const Vector<Real> inside = On::load(internal + i);
-  Vector<Real> force = inside + On::load(task.external + i);
+  const Vector<Real> internal = On::load(task.internal + i);
+  Vector<Real> force = internal;
+  if (task.external != nullptr) force = force + On::load(task.external + i);
   Vector<Real> damping{Real(0), Real(0)};
   if (task.damping > 0) {
     const Vector<Real> reference{Real(task.damping_reference.x), Real(task.damping_reference.y)};
@@ -209,7 +188,7 @@ void accelerate(const NodeTask& task, const Constants<Real>& k, const Rule& rule
   On::store(node, task.nodes + i);
   On::store(acceleration, task.acceleration + i);
 
-  sums.internal_power.add(dot(inside, before + after), i);
+  sums.internal_power.add(dot(internal, before + after), i);
   rule.book(k, sums, i, mass, node, before, acceleration);
   const Vector<Real> carried = mass * after;
   sums.kinetic_after.add(dot(carried, after), i);
@@ -227,14 +206,12 @@ void accelerate(const NodeTask& task, const Constants<Real>& k, const Rule& rule
 template <class Rule>
 [[gnu::flatten]] NodeSums accelerate_block(const NodeTask& task) {
   const Rule rule{task};
-  Vec2 internal[nodes_per_block];
-  sum_forces(task, internal);
   NodeLaneSums sums;
   const Constants<Pack> in_packs(task);
   const Constants<double> alone(task);
   Index i = 0;
-  for (; i + Pack::lanes <= task.count; i += Pack::lanes) accelerate(task, in_packs, rule, i, internal, sums);
-  for (; i < task.count; ++i) accelerate(task, alone, rule, i, internal, sums);
+  for (; i + Pack::lanes <= task.count; i += Pack::lanes) accelerate(task, in_packs, rule, i, sums);
+  for (; i < task.count; ++i) accelerate(task, alone, rule, i, sums);
 
   NodeSums total{.internal_power = sums.internal_power.total(),
                  .kinetic = sums.kinetic.total(),
