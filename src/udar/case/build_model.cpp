@@ -137,16 +137,20 @@ void list_pushed_nodes(Model& model) {
 }  // namespace
 
 Model build_model(const Case& input) {
+  std::vector<Mesh> meshes;
+  for (const BodyCase& body : input.bodies) meshes.push_back(generate(body.mesh));
+  return build_model(input, std::move(meshes));
+}
+
+Model build_model(const Case& input, std::vector<Mesh> meshes) {
   Model model;
   model.run = input.run;
   model.contact = input.contact;
-  std::vector<Mesh> meshes;
-  for (const BodyCase& body : input.bodies) {
-    meshes.push_back(generate(body.mesh));
-    check_mesh(meshes.back());
-    meshes.back() = renumber(meshes.back());
-    append_body(model, body, material_of(input, body), meshes.back());
-    set_start_velocity(model, body, model.bodies.back());
+  for (std::size_t b = 0; b < meshes.size(); ++b) {
+    check_mesh(meshes[b]);
+    meshes[b] = renumber(meshes[b]);
+    append_body(model, input.bodies[b], material_of(input, input.bodies[b]), meshes[b]);
+    set_start_velocity(model, input.bodies[b], model.bodies.back());
   }
   add_padding(model);
   for (const double mass : model.mass) model.inverse_mass.push_back(1 / mass);
