@@ -21,8 +21,8 @@ std::string bytes(const T& value) {
   static_assert(std::is_trivially_copyable_v<T>);
   return {reinterpret_cast<const char*>(&value), sizeof value};
 }
-template <class T>
-std::string bytes(const std::vector<T>& values) {
+template <class T, class A>
+std::string bytes(const std::vector<T, A>& values) {
   static_assert(std::is_trivially_copyable_v<T>);
   return {reinterpret_cast<const char*>(values.data()), sizeof(T) * values.size()};
 }

@@ -3,6 +3,7 @@
 #include <array>
 #include <vector>
 
+#include "udar/base/array.hpp"
 #include "udar/mesh/mesh.hpp"
 
 namespace udar {
@@ -31,7 +32,7 @@ struct ElementBlock {
 
 /// A mesh cut into blocks.
 struct MeshBlocks {
-  std::vector<Quad> quads;           ///< padded to `lanes`; those of padding are {none, none, none, none}
+  Array<Quad> quads;                 ///< padded to `lanes`; those of padding are {none, none, none, none}
   std::vector<ElementBlock> blocks;  ///< in whole vectors; only the last one has padding, at its end
 };
 
