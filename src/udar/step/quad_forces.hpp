@@ -36,7 +36,13 @@ class QuadForces {
         for (; next < early_.size() && early_[next].after == block; ++next) sum(early_[next].nodes);
       }
     });
-    pool.for_each_block(late_.size(), [&](std::size_t k) { sum(late_[k]); });
+    // With few threads these are few: to wake the others would take longer.
+    constexpr std::size_t few = 16;
+    if (late_.size() <= few) {
+      for (const std::size_t nodes : late_) sum(nodes);
+    } else {
+      pool.for_each_block(late_.size(), [&](std::size_t k) { sum(late_[k]); });
+    }
   }
 
   Array<Vec2> internal;  ///< N, sum of the corner forces at each node
