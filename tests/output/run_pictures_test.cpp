@@ -7,6 +7,7 @@
 #include "tests/output/watched_run.hpp"
 #include "tests/results/scratch.hpp"
 #include "tests/simulation/example.hpp"
+#include "udar/results/outline.hpp"
 #include "udar/results/xml.hpp"
 
 namespace udar {
@@ -38,6 +39,7 @@ TEST_CASE("the picture of the set-up shows bodies, obstacles, velocity, supports
   const WatchedRun run(input);
   const Picture picture = setup_picture(run.model, run.state, "a <b> & \"c\"");
   CHECK(picture.triangles.size() == run.model.element_count);
+  CHECK(loops_of(picture.boundary) == outline(picture.triangles));
   CHECK(picture.obstacles.size() == 1);
   REQUIRE(picture.arrows.size() == 1);
   CHECK(picture.arrows[0].value.y == doctest::Approx(-80));

@@ -1,11 +1,14 @@
 #include "udar/results/picture.hpp"
 
 #include <doctest/doctest.h>
+#include <zlib.h>
 
 #include <cmath>
+#include <random>
 
 #include "tests/results/scratch.hpp"
 #include "udar/results/outline.hpp"
+#include "udar/results/png.hpp"
 #include "udar/results/xml.hpp"
 
 using namespace udar;
@@ -46,6 +49,7 @@ bool is_sound(const std::string& svg) {
       open.push_back(tag->name);
     }
     for (const auto& [key, value] : tag->attributes) {
+      if (key == "xlink:href") continue;  // an image may have any letters
       if (contains(value, "nan") || contains(value, "inf")) return false;
     }
   }
@@ -106,9 +110,70 @@ TEST_CASE("a full picture is sound and of reasonable size") {
 TEST_CASE("one colour is one path, whatever the number of triangles") {
   Picture picture = grid_picture(400, 100);
   CHECK(to_svg(picture).size() < 50'000);  // too fine for its mesh to be drawn
+  picture = grid_picture(160, 40);
   picture.highlight = PictureHighlight{"flows now", std::vector<std::uint8_t>(picture.triangles.size())};
-  for (std::size_t i = 0; i < 20000; ++i) picture.highlight->flags[i] = 1;
-  CHECK(count_of(to_svg(picture), "<path") == 4);  // two fills, the outline, the scale bar
+  for (std::size_t i = 0; i < 5000; ++i) picture.highlight->flags[i] = 1;
+  CHECK(count_of(to_svg(picture), "<path") == 5);  // two fills, the mesh, the outline, the scale bar
+}
+
+TEST_CASE("colours of a fine mesh are an image, whose size the mesh does not change") {
+  Picture picture = grid_picture(800, 200);
+  picture.subtitle = "many elements";
+  CHECK(contains(to_svg(picture), ">many elements; the mesh is too fine to be drawn<"));
+  PictureField field{.name = "x", .unit = "", .values = {}, .min = 0, .max = 1};
+  std::minstd_rand random;
+  for (std::size_t i = 0; i < picture.triangles.size(); ++i) {
+    field.values.push_back(std::uniform_real_distribution<>(0, 1)(random));  // no two neighbours alike
+  }
+  picture.field = field;
+  const std::string svg = to_svg(picture);
+  CHECK(is_sound(svg));
+  CHECK(count_of(svg, "<image") == 1);
+  CHECK(count_of(svg, "<path") == 2);  // the outline, the scale bar
+  CHECK(svg.size() < 2'000'000);
+  CHECK(contains(svg, ">many elements<"));
+}
+
+TEST_CASE("a picture tells its boundary or has it found") {
+  Picture picture = grid_picture(5, 4);
+  const std::string found = to_svg(picture);
+  for (const Loop& loop : outline(picture.triangles)) {
+    for (std::size_t k = 0; k < loop.size(); ++k) picture.boundary.push_back({loop[k], loop[(k + 1) % loop.size()]});
+  }
+  CHECK(loops_of(picture.boundary) == outline(picture.triangles));
+  CHECK(to_svg(picture) == found);
+}
+
+TEST_CASE("a PNG has its size, its colours and every dot") {
+  const std::vector<std::string_view> colours{"#ff0000", "#0080ff"};
+  const DotImage image{.width = 3, .height = 2, .dots = {0, 1, 2, 2, 1, 0}};
+  const std::string png = to_png(image, colours);
+  CHECK(png.starts_with("\x89PNG\r\n\x1a\n"));
+  const auto chunk = [&](std::string_view kind) {
+    const std::size_t at = png.find(kind);
+    REQUIRE(at != std::string::npos);
+    const auto size = static_cast<std::size_t>(static_cast<unsigned char>(png[at - 1]));  // all are short
+    return png.substr(at + 4, size);
+  };
+  using namespace std::string_literals;
+  CHECK(chunk("IHDR") == "\0\0\0\3\0\0\0\2\x08\3\0\0\0"s);
+  CHECK(chunk("PLTE") == "\0\0\0\xff\0\0\0\x80\xff"s);
+  CHECK(chunk("tRNS") == "\0"s);
+  const std::string packed = chunk("IDAT");
+  std::string rows(8, '?');
+  uLongf size = rows.size();
+  REQUIRE(::uncompress(reinterpret_cast<Bytef*>(rows.data()), &size, reinterpret_cast<const Bytef*>(packed.data()),
+                       packed.size()) == Z_OK);
+  CHECK(rows == "\0\0\1\2\0\2\1\0"s);
+  CHECK(png.ends_with("IEND\xae\x42\x60\x82"));  // with its checksum, as the standard has it
+}
+
+TEST_CASE("base64 as in its standard") {
+  CHECK(to_base64("") == "");
+  CHECK(to_base64("f") == "Zg==");
+  CHECK(to_base64("fo") == "Zm8=");
+  CHECK(to_base64("foobar") == "Zm9vYmFy");
+  CHECK(to_base64("\xff\xff\xff") == "////");
 }
 
 TEST_CASE("no text of the user becomes markup") {

@@ -13,13 +13,16 @@ namespace {
 Picture bodies_and_obstacles(const Model& model, const State& state, const std::string& title) {
   Picture picture;
   picture.title = title;
+  picture.points.reserve(model.node_count);
+  picture.triangles.reserve(model.element_count);
+  const auto number = [](Index i) { return static_cast<std::int32_t>(i); };
   for (Index i = 0; i < model.node_count; ++i) picture.points.push_back({state.nodes[i].x, state.nodes[i].y});
   for (const Body& body : model.bodies) {
     for (Index e = body.element_begin; e < body.element_end; ++e) {
-      const auto& c = model.corners[e];
-      picture.triangles.push_back(
-          {static_cast<std::int32_t>(c[0]), static_cast<std::int32_t>(c[1]), static_cast<std::int32_t>(c[2])});
+      const auto& [a, b, c] = model.corners[e];
+      picture.triangles.push_back({number(a), number(b), number(c)});
     }
+    for (const Edge& edge : body.boundary) picture.boundary.push_back({number(edge.a), number(edge.b)});
   }
   picture.obstacles = obstacle_outlines(model, state);
   return picture;
@@ -65,6 +68,7 @@ Picture state_picture(const Model& model, const State& state, const std::string&
   const bool flowed =
       std::any_of(state.plastic_strain.begin(), state.plastic_strain.end(), [](double p) { return p > 0; });
   PictureField field{.name = flowed ? "plastic strain" : "largest shear stress", .unit = flowed ? "" : "MPa"};
+  field.values.reserve(model.element_count);
   for (const Body& body : model.bodies) {
     for (Index e = body.element_begin; e < body.element_end; ++e) {
       const auto p = principal_stresses(state, e);

@@ -7,24 +7,54 @@ namespace {
 
 using Edge = std::pair<std::int32_t, std::int32_t>;
 
-std::vector<Edge> directed_edges(std::span<const Triangle> triangles) {
+/// Where the directed edges of triangles lead from each point, ascending.
+struct EdgeEnds {
+  std::vector<std::uint32_t> offsets;  ///< those of point i are ends[offsets[i]] to ends[offsets[i + 1] - 1]
+  std::vector<std::int32_t> ends;
+
+  explicit EdgeEnds(std::span<const Triangle> triangles) : ends(3 * triangles.size()) {
+    std::int32_t largest = -1;
+    for (const auto& [a, b, c] : triangles) largest = std::max({largest, a, b, c});
+    offsets.resize(static_cast<std::size_t>(largest) + 3);
+    // Counted one place further on, so that filling in moves the counts to where they belong.
+    for (const Triangle& triangle : triangles) {
+      for (const std::int32_t corner : triangle) ++offsets[static_cast<std::size_t>(corner) + 2];
+    }
+    for (std::size_t i = 1; i < offsets.size(); ++i) offsets[i] += offsets[i - 1];
+    for (const auto& [a, b, c] : triangles) {
+      for (const auto& [from, to] : {Edge{a, b}, Edge{b, c}, Edge{c, a}}) {
+        ends[offsets[static_cast<std::size_t>(from) + 1]++] = to;
+      }
+    }
+    offsets.pop_back();
+    for (std::size_t i = 0; i + 1 < offsets.size(); ++i) {
+      std::sort(ends.begin() + offsets[i], ends.begin() + offsets[i + 1]);
+    }
+  }
+  [[nodiscard]] std::span<const std::int32_t> of(std::int32_t point) const {
+    const auto i = static_cast<std::size_t>(point);
+    return {ends.data() + offsets[i], ends.data() + offsets[i + 1]};
+  }
+};
+
+/// Edges without one the other way, sorted: an edge that two triangles share runs both ways, the others bound the
+/// union.
+std::vector<Edge> single_edges(std::span<const Triangle> triangles) {
+  const EdgeEnds all(triangles);
   std::vector<Edge> edges;
-  edges.reserve(3 * triangles.size());
-  for (const auto& [a, b, c] : triangles) edges.insert(edges.end(), {{a, b}, {b, c}, {c, a}});
-  std::sort(edges.begin(), edges.end());
+  for (std::int32_t from = 0; static_cast<std::size_t>(from) + 1 < all.offsets.size(); ++from) {
+    for (const std::int32_t to : all.of(from)) {
+      const auto back = all.of(to);
+      if (std::find(back.begin(), back.end(), from) == back.end()) edges.emplace_back(from, to);
+    }
+  }
   return edges;
 }
 
 }  // namespace
 
 std::vector<Loop> outline(std::span<const Triangle> triangles) {
-  const std::vector<Edge> all = directed_edges(triangles);
-  // An edge that two triangles share runs both ways; what is left bounds the union, sorted by first point.
-  std::vector<Edge> edges;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(edges), [&](const Edge& edge) {
-    return !std::binary_search(all.begin(), all.end(), Edge{edge.second, edge.first});
-  });
-
+  const std::vector<Edge> edges = single_edges(triangles);
   std::vector<bool> used(edges.size());
   const auto unused_from = [&](std::int32_t point) {
     auto at = static_cast<std::size_t>(std::lower_bound(edges.begin(), edges.end(), Edge{point, -1}) - edges.begin());
@@ -45,10 +75,22 @@ std::vector<Loop> outline(std::span<const Triangle> triangles) {
   return loops;
 }
 
+std::vector<Loop> loops_of(std::span<const std::array<std::int32_t, 2>> edges) {
+  std::vector<Loop> loops;
+  std::int32_t end = -1;
+  for (const auto& [from, to] : edges) {
+    if (from != end) loops.emplace_back();
+    loops.back().push_back(from);
+    end = to;
+  }
+  return loops;
+}
+
 std::vector<Edge> mesh_edges(std::span<const Triangle> triangles) {
-  std::vector<Edge> edges = directed_edges(triangles);
-  for (Edge& edge : edges) {
-    if (edge.first > edge.second) std::swap(edge.first, edge.second);
+  std::vector<Edge> edges;
+  edges.reserve(3 * triangles.size());
+  for (const auto& [a, b, c] : triangles) {
+    for (const auto& [from, to] : {Edge{a, b}, Edge{b, c}, Edge{c, a}}) edges.push_back(std::minmax(from, to));
   }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());

@@ -13,8 +13,12 @@ namespace udar {
 using Triangle = std::array<std::int32_t, 3>;
 using Loop = std::vector<std::int32_t>;
 
-/// Outer and inner boundaries of the union of `triangles` (counter-clockwise), as closed loops of point numbers.
+/// Outer and inner boundaries of the union of `triangles` (counter-clockwise), as closed loops of point numbers. Time
+/// is linear.
 std::vector<Loop> outline(std::span<const Triangle> triangles);
+
+/// The loops of edges that lie end to end.
+std::vector<Loop> loops_of(std::span<const std::array<std::int32_t, 2>> edges);
 
 /// Every edge of the mesh once.
 std::vector<std::pair<std::int32_t, std::int32_t>> mesh_edges(std::span<const Triangle> triangles);

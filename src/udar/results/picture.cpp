@@ -11,15 +11,6 @@
 namespace udar {
 namespace {
 
-// Lightness in even steps of OKLab from dark blue over green to pale yellow: it grows with the value for every eye, in
-// grey print too. Low values are dark so that what flows stands out light.
-constexpr std::array<std::string_view, 24> colours{"#2b1f64", "#282970", "#22347b", "#153f85", "#004b8a", "#045788",
-                                                   "#026189", "#016c8c", "#04768e", "#018091", "#008a93", "#049594",
-                                                   "#02a094", "#0daa92", "#02b68d", "#38bf87", "#5dc681", "#7bcc7c",
-                                                   "#95d279", "#aed778", "#c5dc7a", "#dbe17e", "#f0e685", "#ffeba1"};
-constexpr std::string_view no_value_colour = "#9aa3ab";
-constexpr std::string_view body_colour = "#7d9cbb";
-
 constexpr double width = 1000;
 constexpr double margin = 28;
 constexpr double largest_plot_height = 640;
@@ -56,49 +47,8 @@ PicturePage lay_out(const Picture& picture) {
   page.scale = std::min(plot_width / size.x, largest_plot_height / size.y);
   page.size = page.scale * size;
   page.corner = {margin + 0.5 * (plot_width - page.size.x), picture.subtitle.empty() ? 56.0 : 78.0};
+  page.is_fine = is_fine_mesh(page, picture);
   return page;
-}
-
-std::string_view colour_of(double value, const ColourRange& range) {
-  if (std::isnan(value)) return no_value_colour;
-  const double part = std::clamp((value - range.min) / (range.max - range.min), 0.0, 1.0);
-  return colours[std::min(static_cast<std::size_t>(part * colours.size()), colours.size() - 1)];
-}
-
-std::string_view fill_of(const Picture& picture, const ColourRange& range, std::size_t triangle) {
-  if (picture.field && triangle < picture.field->values.size()) {
-    return colour_of(picture.field->values[triangle], range);
-  }
-  const bool known = picture.highlight && triangle < picture.highlight->flags.size();
-  return known && picture.highlight->flags[triangle] != 0 ? picture_highlight : body_colour;
-}
-
-/// Not of a failed run's points that are nowhere.
-bool can_be_drawn(const Picture& picture, const Triangle& triangle) {
-  return std::all_of(triangle.begin(), triangle.end(), [&](std::int32_t corner) {
-    if (corner < 0 || static_cast<std::size_t>(corner) >= picture.points.size()) return false;
-    const Vec2 point = picture.points[static_cast<std::size_t>(corner)];
-    return std::isfinite(point.x) && std::isfinite(point.y);
-  });
-}
-
-struct Shading {
-  std::string_view colour;
-  std::vector<Triangle> triangles;
-};
-
-/// The triangles that can be drawn, by colour.
-std::vector<Shading> shade(const Picture& picture) {
-  const ColourRange range = picture.field ? colour_range(*picture.field) : ColourRange{};
-  std::vector<Shading> shadings;
-  for (std::size_t t = 0; t < picture.triangles.size(); ++t) {
-    if (!can_be_drawn(picture, picture.triangles[t])) continue;
-    const std::string_view colour = fill_of(picture, range, t);
-    auto at = std::find_if(shadings.begin(), shadings.end(), [&](const Shading& s) { return s.colour == colour; });
-    if (at == shadings.end()) at = shadings.insert(at, {colour, {}});
-    at->triangles.push_back(picture.triangles[t]);
-  }
-  return shadings;
 }
 
 std::string polygon_path(const PicturePage& page, std::span<const Vec2> polygon) {
@@ -107,17 +57,6 @@ std::string polygon_path(const PicturePage& page, std::span<const Vec2> polygon)
   for (const Vec2 point : polygon.subspan(1)) path.line_to(page.place(point));
   path.close();
   return path.text();
-}
-
-std::string loops_path(const PicturePage& page, std::span<const Vec2> points, const std::vector<Loop>& loops) {
-  std::string path;
-  std::vector<Vec2> polygon;
-  for (const Loop& loop : loops) {
-    polygon.clear();
-    for (const std::int32_t corner : loop) polygon.push_back(points[static_cast<std::size_t>(corner)]);
-    path += polygon_path(page, polygon);
-  }
-  return path;
 }
 
 void draw_obstacles(Svg& svg, const PicturePage& page, const Picture& picture) {
@@ -131,40 +70,6 @@ void draw_obstacles(Svg& svg, const PicturePage& page, const Picture& picture) {
         R"svg(<path d="{}" fill="#edf0f2"/><path d="{}" fill="url(#hatch)" stroke="#4d5863" stroke-width="1.4"/>)svg",
         path, path);
   }
-}
-
-/// Thin lines where they are far enough apart to be told from each other.
-void draw_mesh(Svg& svg, const PicturePage& page, const Picture& picture, std::span<const Triangle> triangles) {
-  constexpr double closest = 3;
-  const auto edges = mesh_edges(triangles);
-  double total = 0;
-  PathData path;
-  for (const auto& [a, b] : edges) {
-    const Vec2 from = page.place(picture.points[static_cast<std::size_t>(a)]);
-    const Vec2 to = page.place(picture.points[static_cast<std::size_t>(b)]);
-    total += length(to - from);
-    path.move_to(from);
-    path.line_to(to);
-  }
-  const double mean = total / std::max(1.0, static_cast<double>(edges.size()));
-  if (mean <= closest) return;
-  const std::string_view colour = picture.field ? "#8794a3" : picture_ink;  // seen on dark and on light fields
-  svg.add(R"(<path d="{}" fill="none" stroke="{}" stroke-opacity="0.4" stroke-width="{:.2f}"/>)", path.text(), colour,
-          std::clamp(0.04 * mean, 0.25, 0.8));
-}
-
-void draw_bodies(Svg& svg, const PicturePage& page, const Picture& picture) {
-  std::vector<Triangle> all;
-  for (const auto& [colour, triangles] : shade(picture)) {
-    // The thin line of the same colour hides the seam that smoothing leaves between neighbours.
-    svg.add(R"(<path d="{}" fill="{}" stroke="{}" stroke-width="0.6"/>)",
-            loops_path(page, picture.points, outline(triangles)), colour, colour);
-    all.insert(all.end(), triangles.begin(), triangles.end());
-  }
-  if (all.empty()) return;
-  draw_mesh(svg, page, picture, all);
-  svg.add(R"(<path d="{}" fill="none" stroke="{}" stroke-width="1.2" stroke-linejoin="round"/>)",
-          loops_path(page, picture.points, outline(all)), picture_ink);
 }
 
 std::string head(const PicturePage& page, double height) {
@@ -183,8 +88,6 @@ std::string head(const PicturePage& page, double height) {
 }
 
 }  // namespace
-
-std::span<const std::string_view> picture_colours() { return colours; }
 
 ColourRange colour_range(const PictureField& field) {
   double min = std::numeric_limits<double>::infinity();
@@ -211,8 +114,10 @@ std::string to_svg(const Picture& picture) {
   };
   svg.text({page.left, 38}, picture.title, "start",
            fmt::format(R"(font-size="{:.1f}" font-weight="bold")", fitting(picture.title, 19)));
-  svg.text({page.left, 60}, picture.subtitle, "start",
-           fmt::format(R"(font-size="{:.1f}" fill="{}")", fitting(picture.subtitle, picture_font_size), picture_grey));
+  std::string subtitle = picture.subtitle;
+  if (page.is_fine && !picture.field && !subtitle.empty()) subtitle += "; the mesh is too fine to be drawn";
+  svg.text({page.left, 60}, subtitle, "start",
+           fmt::format(R"(font-size="{:.1f}" fill="{}")", fitting(subtitle, picture_font_size), picture_grey));
   svg.add(R"svg(<g clip-path="url(#plot)">)svg");
   draw_obstacles(svg, page, picture);
   draw_bodies(svg, page, picture);

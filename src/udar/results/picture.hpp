@@ -50,6 +50,8 @@ struct Picture {
   std::string subtitle;
   std::vector<Vec2> points;
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< counter-clockwise
+  /// Edges round the triangles, end to end, the triangles on their left; where there are none they are looked for.
+  std::vector<std::array<std::int32_t, 2>> boundary;
   std::optional<PictureField> field;
   std::optional<PictureHighlight> highlight;  ///< not shown together with a field
   std::vector<std::vector<Vec2>> obstacles;   ///< closed outlines; may be far larger than the bodies, which are shown
@@ -59,7 +61,8 @@ struct Picture {
 };
 
 /// The picture as an SVG file, 1000 px wide. Triangles of one colour are merged, so that 12 800 of them with their mesh
-/// take less than 1 MB; mesh lines are left out where they would be closer than 3 px.
+/// take less than 1 MB. Where mesh lines would be closer than 3 px they are left out, and colours become an image: no
+/// number of triangles makes more than some MB. Time is linear in their number.
 std::string to_svg(const Picture& picture);
 
 }  // namespace udar

@@ -24,6 +24,7 @@ struct PicturePage {
   Vec2 size{};       ///< of the plot
   double left = 0;   ///< of everything
   double right = 0;
+  bool is_fine = false;         ///< the mesh is too fine for its lines
   std::vector<Extent> taken{};  ///< where no further label may go
 
   [[nodiscard]] Vec2 place(Vec2 point) const {
@@ -43,6 +44,12 @@ ColourRange colour_range(const PictureField& field);
 /// The colours from low to high.
 std::span<const std::string_view> picture_colours();
 
+/// True where the triangles' sides are 3 px long on average, or less: lines and colours of single triangles would run
+/// into each other.
+bool is_fine_mesh(const PicturePage& page, const Picture& picture);
+
+/// Fills and mesh lines, or, of a fine mesh, an image; then the outline.
+void draw_bodies(Svg& svg, const PicturePage& page, const Picture& picture);
 void draw_supports(Svg& svg, const PicturePage& page, const Picture& picture);
 /// Markers first, so that arrows and labels keep clear of them.
 void draw_markers(Svg& svg, PicturePage& page, const Picture& picture);
