@@ -184,11 +184,18 @@ TEST_CASE("each of several bodies has its number, and elements come without padd
   input.bodies[1].name = "other";
   std::get<RectangleMesh>(input.bodies[1].mesh) = {.size = {0.01, 0.01}, .at = {0.1, 0}, .element_size = 0.01};
   WatchedRun run(input);
-  const VtuGrid grid = body_grid(run.model, run.state);
+  write_vtu(folder / "a.vtu", body_frame(run.model, run.state));
+  const VtuGrid grid = read_vtu(folder / "a.vtu");
   const auto& body = values_of<std::int32_t>(grid.cell_fields, "body");
   CHECK(body.size() == 64 + 2);
   CHECK(std::ranges::count(body, 1) == 2);
   CHECK(std::ranges::count(values_of<std::int32_t>(grid.point_fields, "body"), 1) == 4);
+  CHECK(body[63] == 0);
+  CHECK(body[64] == 1);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Body& other = run.model.bodies[1];
+    CHECK(grid.corners[3 * 64 + c] == static_cast<std::int32_t>(run.model.corners[other.element_begin][c]));
+  }
 }
 
 TEST_CASE("obstacles are drawn where they stand, moving ones too") {

@@ -82,6 +82,27 @@ TEST_CASE("whatever call fails, the file is old or new, and the failure is repor
   CHECK(failures == 5);
 }
 
+TEST_CASE("a file made in pieces can be written over before it is in its place") {
+  const Scratch folder;
+  const std::filesystem::path path = folder / "a.txt";
+  write_file(path, "old content");
+  {
+    FileReplacement file(path);
+    file.write("size: ? ");
+    file.write("content");
+    file.overwrite(6, "7");
+    CHECK(read_file(path, 100) == "old content");
+    file.commit();
+    CHECK(read_file(path, 100) == "size: 7 content");
+  }
+  {
+    FileReplacement given_up(path);
+    given_up.write("half of");
+  }
+  CHECK(read_file(path, 100) == "size: 7 content");
+  CHECK_FALSE(std::filesystem::exists(folder / "a.txt.tmp"));
+}
+
 TEST_CASE("an interrupted call and short writes lose nothing") {
   const Scratch folder;
   for (int k = 0; k < 6; ++k) {

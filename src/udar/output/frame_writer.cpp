@@ -13,85 +13,141 @@ Box box_of_bodies(const Model& model, const State& state) {
   return box;
 }
 
-/// One number for each element of all bodies, without padding.
-template <class Value, class F>
-std::vector<Value> for_elements(const Model& model, F&& value) {
-  std::vector<Value> out;
-  out.reserve(model.element_count);
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    for (Index e = model.bodies[b].element_begin; e < model.bodies[b].element_end; ++e) out.push_back(value(b, e));
+/// Calls f(k, body, e) for the elements that are number `first` + k of all bodies, padding left out, k < count.
+template <class F>
+void for_elements(const Model& model, std::size_t first, std::size_t count, F&& f) {
+  std::size_t before = 0;  // elements of the bodies passed
+  for (std::size_t b = 0; b < model.bodies.size() && before < first + count; ++b) {
+    const Body& body = model.bodies[b];
+    const std::size_t after = before + body.element_end - body.element_begin;
+    for (std::size_t k = std::max(before, first); k < std::min(after, first + count); ++k) {
+      f(k - first, b, static_cast<Index>(body.element_begin + (k - before)));
+    }
+    before = after;
   }
-  return out;
 }
 
-template <class Value, class F>
-std::vector<Value> for_nodes(const Model& model, F&& value) {
-  std::vector<Value> out(model.node_count);
-  for (Index i = 0; i < model.node_count; ++i) out[i] = value(i);
-  return out;
+/// A field with value(body, e) for each element.
+template <class Number, class Value>
+VtuField element_field(const Model& model, std::string name, Value value) {
+  return {std::move(name), 1, model.element_count,
+          VtuSource<Number>([&model, value](std::size_t first, std::span<Number> out) {
+            for_elements(model, first, out.size(),
+                         [&](std::size_t k, std::size_t b, Index e) { out[k] = value(b, e); });
+          })};
 }
 
+VtuField node_numbers(const Model& model) {
+  return {"node_number", 1, model.node_count,
+          VtuSource<std::int32_t>([&model](std::size_t first, std::span<std::int32_t> out) {
+            for (std::size_t k = 0; k < out.size(); ++k)
+              out[k] = static_cast<std::int32_t>(model.node_numbers[first + k]);
+          })};
+}
+
+VtuField bodies_of_nodes(const Model& model) {
+  return {"body", 1, model.node_count,
+          VtuSource<std::int32_t>([&model](std::size_t first, std::span<std::int32_t> out) {
+            const Body* body = model.bodies.data();
+            for (std::size_t k = 0; k < out.size(); ++k) {
+              while (first + k >= body->node_end) ++body;
+              out[k] = static_cast<std::int32_t>(body - model.bodies.data());
+            }
+          })};
+}
+
+template <class Value>
+VtuField node_vectors(const Model& model, const char* quantity, const char* unit, Value value) {
+  return vectors<float>(field_name(quantity, unit), model.node_count,
+                        [value](std::size_t i) { return value(static_cast<Index>(i)); });
+}
+
+/// Contact forces at the contact nodes, all obstacles together, N. They stand in the order of the nodes.
 std::vector<Vec2> contact_forces(const Model& model, const State& state) {
-  std::vector<Vec2> force(model.node_count);
-  const std::size_t count = model.contact_nodes.size();
+  std::vector<Vec2> force(model.contact_nodes.size());
   for (std::size_t k = 0; k < state.contacts.size(); ++k) {
     const SpringState& s = state.contacts[k];
-    force[model.contact_nodes[k % count]] += s.normal_force + s.friction_force + s.damping_force;
+    force[k % force.size()] += s.normal_force + s.friction_force + s.damping_force;
   }
   return force;
 }
 
-std::vector<std::int32_t> bodies_of_nodes(const Model& model) {
-  std::vector<std::int32_t> number(model.node_count);
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    for (Index i = model.bodies[b].node_begin; i < model.bodies[b].node_end; ++i) {
-      number[i] = static_cast<std::int32_t>(b);
-    }
-  }
-  return number;
+VtuField contact_force_field(const Model& model, const State& state) {
+  return node_vectors(model, "contact_force", "N", [&model, force = contact_forces(model, state)](Index i) {
+    const auto at = std::lower_bound(model.contact_nodes.begin(), model.contact_nodes.end(), i);
+    return at != model.contact_nodes.end() && *at == i
+               ? force[static_cast<std::size_t>(at - model.contact_nodes.begin())]
+               : Vec2{};
+  });
 }
 
-void add_point_fields(const Model& model, const State& state, VtuGrid& grid) {
-  auto& out = grid.point_fields;
-  out.push_back(vector_field("displacement", "m",
-                             for_nodes<Vec2>(model, [&](Index i) { return grid.points[i] - model.rest[i]; })));
-  out.push_back(vector_field("velocity", "m/s", for_nodes<Vec2>(model, [&](Index i) { return velocity(state, i); })));
-  out.push_back(
-      vector_field("acceleration", "m/s^2", for_nodes<Vec2>(model, [&](Index i) { return state.acceleration[i]; })));
-  out.push_back(vector_field("contact_force", "N", contact_forces(model, state)));
-  out.push_back(number_field("node_number", for_nodes<std::int32_t>(model, [&](Index i) {
-                               return static_cast<std::int32_t>(model.node_numbers[i]);
-                             })));
-  out.push_back(number_field("body", bodies_of_nodes(model)));
+Vec2 place(const State& state, Index i) { return {state.nodes[i].x, state.nodes[i].y}; }
+
+void add_point_fields(const Model& model, const State& state, std::vector<VtuField>& out) {
+  out.push_back(node_vectors(model, "displacement", "m", [&](Index i) { return place(state, i) - model.rest[i]; }));
+  out.push_back(node_vectors(model, "velocity", "m/s", [&](Index i) { return velocity(state, i); }));
+  out.push_back(node_vectors(model, "acceleration", "m/s^2", [&](Index i) { return state.acceleration[i]; }));
+  out.push_back(contact_force_field(model, state));
+  out.push_back(node_numbers(model));
+  out.push_back(bodies_of_nodes(model));
 }
 
-void add_cell_fields(const Model& model, const State& state, VtuGrid& grid) {
-  auto& out = grid.cell_fields;
+void add_cell_fields(const Model& model, const State& state, std::vector<VtuField>& out) {
   const auto scalar = [&](const char* name, const char* unit, auto&& value) {
-    out.push_back(
-        scalar_field(name, unit, for_elements<double>(model, [&](std::size_t, Index e) { return value(e); })));
+    out.push_back(element_field<float>(model, field_name(name, unit),
+                                       [value](std::size_t, Index e) { return as_float(value(e)); }));
   };
   scalar("stress_x", "Pa", [&](Index e) { return state.stress_xx[e]; });
   scalar("stress_y", "Pa", [&](Index e) { return state.stress_yy[e]; });
   scalar("stress_xy", "Pa", [&](Index e) { return state.stress_xy[e]; });
   scalar("stress_z", "Pa", [&](Index e) { return state.stress_zz[e]; });
-  std::vector<std::array<double, 3>> principal(model.corners.size());
-  for (Index e = 0; e < principal.size(); ++e) principal[e] = principal_stresses(state, e);
-  scalar("principal_1", "Pa", [&](Index e) { return principal[e][0]; });
-  scalar("principal_2", "Pa", [&](Index e) { return principal[e][1]; });
-  scalar("principal_3", "Pa", [&](Index e) { return principal[e][2]; });
-  scalar("max_shear", "Pa", [&](Index e) { return 0.5 * (principal[e][0] - principal[e][2]); });
+  // Computed anew for each of them: that takes less time than packing, and an array would take 24 bytes an element.
+  scalar("principal_1", "Pa", [&](Index e) { return principal_stresses(state, e)[0]; });
+  scalar("principal_2", "Pa", [&](Index e) { return principal_stresses(state, e)[1]; });
+  scalar("principal_3", "Pa", [&](Index e) { return principal_stresses(state, e)[2]; });
+  scalar("max_shear", "Pa", [&](Index e) {
+    const auto p = principal_stresses(state, e);
+    return 0.5 * (p[0] - p[2]);
+  });
   scalar("pressure", "Pa",
          [&](Index e) { return -(state.stress_xx[e] + state.stress_yy[e] + state.stress_zz[e]) / 3; });
   scalar("plastic_strain", "", [&](Index e) { return state.plastic_strain[e]; });
-  out.push_back(flag_field("flows_now", for_elements<std::uint8_t>(model, [&](std::size_t, Index e) {
-                             return static_cast<std::uint8_t>(flows(state, e));
-                           })));
-  out.push_back(number_field("element_number", for_elements<std::int32_t>(model, [&](std::size_t, Index e) {
-                               return static_cast<std::int32_t>(model.element_numbers[e]);
-                             })));
-  out.push_back(number_field(
-      "body", for_elements<std::int32_t>(model, [](std::size_t b, Index) { return static_cast<std::int32_t>(b); })));
+  out.push_back(element_field<std::uint8_t>(
+      model, "flows_now", [&](std::size_t, Index e) { return static_cast<std::uint8_t>(flows(state, e)); }));
+  out.push_back(element_field<std::int32_t>(model, "element_number", [&](std::size_t, Index e) {
+    return static_cast<std::int32_t>(model.element_numbers[e]);
+  }));
+  out.push_back(
+      element_field<std::int32_t>(model, "body", [](std::size_t b, Index) { return static_cast<std::int32_t>(b); }));
+}
+
+/// Points and triangles of all bodies.
+VtuFrame bare_frame(const Model& model, const State& state) {
+  VtuFrame frame{.time = state.clock.time.value(),
+                 .points = model.node_count,
+                 .cells = model.element_count,
+                 .places = vectors<double>("Points", model.node_count,
+                                           [&](std::size_t i) { return place(state, static_cast<Index>(i)); }),
+                 .corners = {},
+                 .ends = {},
+                 .kinds = {},
+                 .point_fields = {},
+                 .cell_fields = {}};
+  frame.corners = {"connectivity", 1, 3 * frame.cells,
+                   VtuSource<std::int32_t>([&model](std::size_t first, std::span<std::int32_t> out) {
+                     for_elements(model, first / 3, out.size() / 3, [&](std::size_t k, std::size_t, Index e) {
+                       for (std::size_t c = 0; c < 3; ++c) {
+                         out[3 * k + c] = static_cast<std::int32_t>(model.corners[e][c]);
+                       }
+                     });
+                   })};
+  frame.ends = {"offsets", 1, frame.cells, VtuSource<std::int32_t>([](std::size_t first, std::span<std::int32_t> out) {
+                  for (std::size_t k = 0; k < out.size(); ++k) out[k] = static_cast<std::int32_t>(3 * (first + k + 1));
+                })};
+  frame.kinds = {"types", 1, frame.cells, VtuSource<std::uint8_t>([](std::size_t, std::span<std::uint8_t> out) {
+                   std::fill(out.begin(), out.end(), static_cast<std::uint8_t>(VtuCell::triangle));
+                 })};
+  return frame;
 }
 
 /// The edge of something endless with a part of it, so that it can be seen which side is full.
@@ -102,17 +158,11 @@ std::vector<Vec2> strip(const PreparedShape& shape, const Polyline& edge, double
 
 }  // namespace
 
-VtuGrid body_grid(const Model& model, const State& state) {
-  auto points = for_nodes<Vec2>(model, [&](Index i) { return Vec2{state.nodes[i].x, state.nodes[i].y}; });
-  const auto triangles = for_elements<std::array<std::int32_t, 3>>(model, [&](std::size_t, Index e) {
-    const auto& c = model.corners[e];
-    return std::array{static_cast<std::int32_t>(c[0]), static_cast<std::int32_t>(c[1]),
-                      static_cast<std::int32_t>(c[2])};
-  });
-  VtuGrid grid = triangle_grid(state.clock.time.value(), std::move(points), triangles);
-  add_point_fields(model, state, grid);
-  add_cell_fields(model, state, grid);
-  return grid;
+VtuFrame body_frame(const Model& model, const State& state) {
+  VtuFrame frame = bare_frame(model, state);
+  add_point_fields(model, state, frame.point_fields);
+  add_cell_fields(model, state, frame.cell_fields);
+  return frame;
 }
 
 std::vector<std::vector<Vec2>> obstacle_outlines(const Model& model, const State& state) {
@@ -162,7 +212,7 @@ void FrameWriter::close(const State& state) {
 void FrameWriter::write(const State& state) {
   const double time = state.clock.time.value();
   std::vector<PvdEntry> frame{{time, 0, RunFolder::frame_name("bodies", frames_)}};
-  write_vtu(folder_ / frame[0].file, body_grid(model_, state));
+  write_vtu(folder_ / frame[0].file, body_frame(model_, state));
   const VtuGrid obstacles = obstacle_grid(model_, state);
   if (!obstacles.points.empty()) {
     frame.push_back({time, 1, RunFolder::frame_name("obstacles", frames_)});

@@ -12,8 +12,8 @@
 
 namespace udar {
 
-/// Bodies with all fields at t_n.
-VtuGrid body_grid(const Model& model, const State& state);
+/// Bodies with all fields at t_n, to be written while model and state stay as they are.
+VtuFrame body_frame(const Model& model, const State& state);
 /// The obstacles where they stand at t_n, as closed polygons; of endless ones a strip beside the bodies.
 VtuGrid obstacle_grid(const Model& model, const State& state);
 /// The same outlines, obstacle by obstacle, m.

@@ -80,14 +80,13 @@ void sync_folder(const fs::path& folder) {
   sync(file.number(), folder);
 }
 
-void write_new(const fs::path& path, std::string_view bytes) {
-  ::unlink(path.c_str());  // left by a run that was killed here
+/// Opens a new file; one that a killed run left is removed.
+Descriptor create(const fs::path& path) {
+  ::unlink(path.c_str());
   const int flags = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
   Descriptor file(retry([&] { return ::open(path.c_str(), flags, 0666); }));
   if (!file.is_open()) fail("create", path, errno);
-  write_all(file.number(), bytes, path);
-  sync(file.number(), path);
-  close_checked(file, path);
+  return file;
 }
 
 }  // namespace
@@ -96,24 +95,47 @@ Descriptor::~Descriptor() {
   if (is_open()) ::close(number_);
 }
 
-void write_file(const fs::path& path, std::string_view bytes) {
+FileReplacement::FileReplacement(fs::path path) : path_(std::move(path)), temporary_(path_) {
   struct stat found {};
-  if (::lstat(path.c_str(), &found) == 0 && !S_ISREG(found.st_mode)) {
+  if (::lstat(path_.c_str(), &found) == 0 && !S_ISREG(found.st_mode)) {
     throw OutputError(
         fmt::format("cannot write {}: it is not a regular file; remove it, or choose another folder with "
                     "--output",
-                    path.string()));
+                    path_.string()));
   }
-  fs::path temporary = path;
-  temporary += ".tmp";
-  try {
-    write_new(temporary, bytes);
-    if (::rename(temporary.c_str(), path.c_str()) < 0) fail("rename a file to", path, errno);
-  } catch (...) {
-    ::unlink(temporary.c_str());
-    throw;
+  temporary_ += ".tmp";
+  file_ = create(temporary_);
+}
+
+FileReplacement::~FileReplacement() {
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void FileReplacement::write(std::string_view bytes) { write_all(file_.number(), bytes, temporary_); }
+
+void FileReplacement::overwrite(std::size_t at, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count =
+        retry([&] { return ::pwrite(file_.number(), bytes.data(), bytes.size(), static_cast<off_t>(at)); });
+    if (count < 0) fail("write", temporary_, errno);
+    if (count == 0) fail("write", temporary_, EIO);
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+    at += static_cast<std::size_t>(count);
   }
-  sync_folder(path.has_parent_path() ? path.parent_path() : fs::path("."));
+}
+
+void FileReplacement::commit() {
+  sync(file_.number(), temporary_);
+  close_checked(file_, temporary_);
+  if (::rename(temporary_.c_str(), path_.c_str()) < 0) fail("rename a file to", path_, errno);
+  temporary_.clear();
+  sync_folder(path_.has_parent_path() ? path_.parent_path() : fs::path("."));
+}
+
+void write_file(const fs::path& path, std::string_view bytes) {
+  FileReplacement file(path);
+  file.write(bytes);
+  file.commit();
 }
 
 std::string read_file(const fs::path& path, std::size_t most_bytes) {

@@ -35,6 +35,28 @@ class Descriptor {
   int number_ = -1;
 };
 
+/// Makes a file piece by piece, all or nothing as `write_file` does. Every call throws OutputError when it fails.
+class FileReplacement {
+ public:
+  /// Begins a temporary file beside `path`.
+  explicit FileReplacement(std::filesystem::path path);
+  FileReplacement(const FileReplacement&) = delete;
+  FileReplacement& operator=(const FileReplacement&) = delete;
+  /// Removes the temporary file, if it was not put in its place.
+  ~FileReplacement();
+
+  void write(std::string_view bytes);
+  /// Puts `bytes` over those written before from byte `at` on.
+  void overwrite(std::size_t at, std::string_view bytes);
+  /// Waits for the disk and puts the file in its place.
+  void commit();
+
+ private:
+  std::filesystem::path path_;
+  std::filesystem::path temporary_;
+  Descriptor file_;
+};
+
 /// A text file that grows at its end. Every call that reaches the disk throws OutputError when it fails; after that the
 /// file takes no more.
 class AppendFile {

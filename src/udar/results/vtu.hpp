@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -47,13 +48,61 @@ struct VtuGrid {
   friend bool operator==(const VtuGrid&, const VtuGrid&) = default;
 };
 
+/// Fills `out` with numbers of an array from the `first` one on; both are whole vectors of up to three components.
+template <class Number>
+using VtuSource = std::function<void(std::size_t first, std::span<Number> out)>;
+
+/// A field whose numbers are asked for while it is written, a few thousand at a time: nothing of its size is held.
+struct VtuField {
+  std::string name;
+  int components = 1;
+  std::size_t size = 0;  ///< numbers, of all components
+  std::variant<VtuSource<double>, VtuSource<float>, VtuSource<std::int32_t>, VtuSource<std::uint8_t>> source;
+};
+
+/// One frame, to be written piece by piece. The arrays that VtuGrid has as vectors are fields here.
+struct VtuFrame {
+  double time = 0;  ///< s
+  std::size_t points = 0;
+  std::size_t cells = 0;
+  VtuField places;   ///< m, three components
+  VtuField corners;  ///< point numbers of all cells, one cell after another
+  VtuField ends;
+  VtuField kinds;
+  std::vector<VtuField> point_fields;
+  std::vector<VtuField> cell_fields;
+};
+
+/// The nearest of 32 bits; a number beyond them becomes the largest.
+float as_float(double value);
+
+/// A field with the vector value(i) for i from 0 to `count` - 1; z = 0 since VTK knows only three components.
+template <class Number, class Value>
+VtuField vectors(std::string name, std::size_t count, Value value) {
+  const auto convert = [](double x) {
+    if constexpr (std::is_same_v<Number, float>) {
+      return as_float(x);
+    } else {
+      return x;
+    }
+  };
+  return {std::move(name), 3, 3 * count, VtuSource<Number>([=](std::size_t first, std::span<Number> out) {
+            for (std::size_t k = 0; k < out.size(); k += 3) {
+              const Vec2 v = value((first + k) / 3);
+              out[k] = convert(v.x);
+              out[k + 1] = convert(v.y);
+              out[k + 2] = 0;
+            }
+          })};
+}
+
 /// A grid of triangles.
 VtuGrid triangle_grid(double time, std::vector<Vec2> points, std::span<const std::array<std::int32_t, 3>> triangles);
 
 /// "velocity", "m/s" -> "velocity_m_per_s": letters, digits and `_` only, so that ParaView's calculator takes it.
 std::string field_name(std::string_view quantity, std::string_view unit);
 
-/// A field of numbers for pictures: 32 bits each, values beyond them at the largest.
+/// A field of numbers for pictures: 32 bits each.
 VtuArray scalar_field(std::string_view quantity, std::string_view unit, std::span<const double> values);
 /// A field of vectors, with z = 0 since VTK knows only three components.
 VtuArray vector_field(std::string_view quantity, std::string_view unit, std::span<const Vec2> values);
@@ -65,6 +114,7 @@ VtuArray flag_field(std::string_view name, std::span<const std::uint8_t> values)
 /// Writes `grid` as VTU (appended raw data, zlib blocks) all or nothing; ParaView and VTK read it. Throws OutputError,
 /// also for a field whose length does not fit.
 void write_vtu(const std::filesystem::path& path, const VtuGrid& grid);
+void write_vtu(const std::filesystem::path& path, const VtuFrame& frame);
 std::string to_vtu(const VtuGrid& grid);
 
 /// Reads what `write_vtu` wrote; other programs' VTU only as far as they write the same way. Every count and number is
