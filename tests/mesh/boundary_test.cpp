@@ -6,6 +6,7 @@
 
 #include "udar/base/error.hpp"
 #include "udar/mesh/generators.hpp"
+#include "udar/mesh/renumber.hpp"
 
 using namespace udar;
 
@@ -50,6 +51,15 @@ TEST_CASE("a ring has two loops") {
 TEST_CASE("two triangles that touch in a node have all their sides on the boundary") {
   const Mesh mesh{.nodes = {{0, 0}, {1, 0}, {0, 1}, {-1, 0}, {0, -1}}, .triangles = {{0, 1, 2}, {0, 3, 4}}};
   CHECK(boundary_edges(mesh).size() == 6);
+}
+
+TEST_CASE("a renumbered mesh brings its boundary along") {
+  for (const MeshShape& shape : {MeshShape(RectangleMesh{.size = {2, 1}, .element_size = 0.25}),
+                                 MeshShape(RingMesh{.outer_radius = 2, .inner_radius = 1, .element_size = 0.2})}) {
+    const Mesh mesh = renumber(generate(shape));
+    CHECK_FALSE(mesh.boundary.empty());
+    CHECK(mesh.boundary == boundary_edges(mesh));
+  }
 }
 
 TEST_CASE("a good mesh passes") { CHECK(complaint(square()) == ""); }

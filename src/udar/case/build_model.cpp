@@ -22,6 +22,24 @@ const MaterialCase& material_of(const Case& input, const BodyCase& body) {
                   fmt::format("body `{}` asks for material `{}`, which is not there", body.name, body.material));
 }
 
+/// Arrays that grow by themselves end up to twice as large as they need to be.
+void reserve(Model& model, const std::vector<Mesh>& meshes) {
+  std::size_t nodes = padding_nodes;
+  std::size_t elements = 0;
+  for (const Mesh& mesh : meshes) {
+    nodes += mesh.nodes.size();
+    elements += (mesh.triangles.size() + lanes - 1) / lanes * lanes;
+  }
+  model.rest.reserve(nodes);
+  model.start_velocity.reserve(nodes);
+  model.mass.reserve(nodes);
+  model.inverse_mass.reserve(nodes);
+  model.node_numbers.reserve(nodes);
+  model.corners.reserve(elements);
+  model.area_density.reserve(elements);
+  model.element_numbers.reserve(elements);
+}
+
 /// Appends a body's mesh to the model's arrays, block by block. Elements are padded to whole vectors with the padding
 /// triangle, whose corners are set when the number of nodes is known.
 void append_body(Model& model, const BodyCase& from, const MaterialCase& material, Mesh& mesh) {
@@ -38,7 +56,7 @@ void append_body(Model& model, const BodyCase& from, const MaterialCase& materia
   body.padded_end = (body.element_end + lanes - 1) / lanes * lanes;
   const MeshBlocks cut = cut_blocks(mesh);
   const auto shifted = [&](Edge e) { return Edge{e.a + body.node_begin, e.b + body.node_begin}; };
-  for (const Edge& e : boundary_edges(mesh)) body.boundary.push_back(shifted(e));
+  for (const Edge& e : mesh.boundary) body.boundary.push_back(shifted(e));
   for (const NamedEdges& side : mesh.sides) {
     body.sides.push_back({side.name, {}});
     for (const Edge& e : side.edges) body.sides.back().edges.push_back(shifted(e));
@@ -57,6 +75,7 @@ void append_body(Model& model, const BodyCase& from, const MaterialCase& materia
   }
   model.element_numbers.insert(model.element_numbers.end(), mesh.triangle_numbers.begin(), mesh.triangle_numbers.end());
   const auto first_quad = static_cast<Index>(model.quads.size());
+  model.quads.reserve(first_quad + cut.quads.size());
   for (Quad quad : cut.quads) {
     for (Index& node : quad) node = node == none ? none : node + body.node_begin;
     model.quads.push_back(quad);
@@ -146,9 +165,9 @@ Model build_model(const Case& input, std::vector<Mesh> meshes) {
   Model model;
   model.run = input.run;
   model.contact = input.contact;
+  for (Mesh& mesh : meshes) mesh = renumber(mesh, check_mesh(mesh));
+  reserve(model, meshes);
   for (std::size_t b = 0; b < meshes.size(); ++b) {
-    check_mesh(meshes[b]);
-    meshes[b] = renumber(meshes[b]);
     append_body(model, input.bodies[b], material_of(input, input.bodies[b]), meshes[b]);
     set_start_velocity(model, input.bodies[b], model.bodies.back());
   }

@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <unordered_map>
+#include <utility>
 
 #include "udar/case/build_parts.hpp"
-#include "udar/mesh/node_corners.hpp"
 
 namespace udar {
 namespace {
@@ -15,29 +16,43 @@ struct ContactNode {
   double stiffness = 0;    ///< N/m, automatic
 };
 
-/// Height over its boundary edge of the element that has it, m. The element is found among those of node `a`.
-double element_height(const Model& model, const NodeCorners& at_nodes, Edge edge) {
-  for (const std::uint32_t corner : at_nodes.of(edge.a)) {
-    const auto& t = model.corners[corner / 3];
-    if (std::find(t.begin(), t.end(), edge.b) == t.end()) continue;
-    const double area = twice_area(model.rest[t[0]], model.rest[t[1]], model.rest[t[2]]);
-    return area / length(model.rest[edge.b] - model.rest[edge.a]);
+/// Height of the element at each boundary edge over that edge, m.
+std::vector<double> element_heights(const Model& model, const Body& body) {
+  // A body has far more elements than boundary edges: those are looked up where an element may have one, and no map
+  // from nodes to elements is made.
+  std::map<std::pair<Index, Index>, std::size_t> number;
+  std::vector<bool> outer(body.node_end - body.node_begin);
+  for (std::size_t k = 0; k < body.boundary.size(); ++k) {
+    number[{body.boundary[k].a, body.boundary[k].b}] = k;
+    outer[body.boundary[k].a - body.node_begin] = true;
   }
-  return 0;
+  std::vector<double> heights(body.boundary.size());
+  for (Index e = body.element_begin; e < body.element_end; ++e) {
+    const auto& t = model.corners[e];
+    for (const auto& [a, b] : {std::pair{t[0], t[1]}, {t[1], t[2]}, {t[2], t[0]}}) {
+      if (!outer[a - body.node_begin] || !outer[b - body.node_begin]) continue;
+      const auto found = number.find({a, b});
+      if (found == number.end()) continue;
+      const double area = twice_area(model.rest[t[0]], model.rest[t[1]], model.rest[t[2]]);
+      heights[found->second] = area / length(model.rest[b] - model.rest[a]);
+    }
+  }
+  return heights;
 }
 
 /// Automatic stiffness: (lambda + 2 G) t times tributary edge length over element height, so that a spring is as stiff
 /// as the element behind it.
 std::vector<ContactNode> contact_nodes(const Model& model) {
-  const NodeCorners at_nodes = node_corners(model.rest.size(), model.corners);
   std::vector<ContactNode> found;
   for (const Body& body : model.bodies) {
     std::unordered_map<Index, std::size_t> place;
     const double modulus =
         std::visit([](const auto& law) { return law.elasticity().wave_modulus(); }, body.law) * body.thickness;
-    for (const Edge& edge : body.boundary) {
+    const std::vector<double> heights = element_heights(model, body);
+    for (std::size_t k = 0; k < body.boundary.size(); ++k) {
+      const Edge edge = body.boundary[k];
       const double edge_length = length(model.rest[edge.b] - model.rest[edge.a]);
-      const double stiffness = modulus * 0.5 * edge_length / element_height(model, at_nodes, edge);
+      const double stiffness = modulus * 0.5 * edge_length / heights[k];
       for (const Index node : {edge.a, edge.b}) {
         const auto [at, fresh] = place.try_emplace(node, found.size());
         if (fresh) found.push_back({.node = node});

@@ -8,15 +8,13 @@ namespace udar {
 
 std::vector<Edge> boundary_edges(const Mesh& mesh) {
   const auto across = neighbours(mesh.triangles, node_corners(mesh.nodes.size(), mesh.triangles));
-  std::vector<Edge> edges;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      if (across[t][k] == none) edges.push_back({mesh.triangles[t][k], mesh.triangles[t][next_corner(k)]});
-    }
-  }
+  return end_to_end(outer_sides(mesh.triangles, across));
+}
+
+std::vector<Edge> end_to_end(std::vector<Edge> edges) {
   std::sort(edges.begin(), edges.end(), [](Edge p, Edge q) { return p.a != q.a ? p.a < q.a : p.b < q.b; });
 
-  // Put end to end: after each edge the first one left that starts where it ends (two loops may touch in a node).
+  // After each edge the first one left that starts where it ends (two loops may touch in a node).
   std::vector<bool> walked(edges.size());
   const auto next_from = [&](Index node) {
     const auto starts_before = [](Edge edge, Index start) { return edge.a < start; };

@@ -77,8 +77,7 @@ void check_areas(const Mesh& mesh, Finding& clockwise, Finding& flat) {
   }
 }
 
-void check_edges(const Mesh& mesh, Finding& unused, Finding& overlap) {
-  const NodeCorners map = node_corners(mesh.nodes.size(), mesh.triangles);
+void check_edges(const Mesh& mesh, const NodeCorners& map, Finding& unused, Finding& overlap) {
   std::vector<Index> ends;  // of the sides that begin at a node
   for (Index i = 0; i < mesh.nodes.size(); ++i) {
     const auto corners = map.of(i);
@@ -99,15 +98,17 @@ void check_edges(const Mesh& mesh, Finding& unused, Finding& overlap) {
 
 }  // namespace
 
-void check_mesh(const Mesh& mesh) {
+NodeCorners check_mesh(const Mesh& mesh) {
   check_data(mesh);
+  NodeCorners map = node_corners(mesh.nodes.size(), mesh.triangles);
   Finding clockwise{.cure = "give its corners counter-clockwise"};
   Finding flat{.cure = "remove it, or move its corners apart"};
   Finding unused{.cure = "a node needs a triangle to have a mass; remove it"};
   Finding overlap{.cure = "an edge has one triangle on each side at most; remove triangles that overlap"};
   check_areas(mesh, clockwise, flat);
-  check_edges(mesh, unused, overlap);
+  check_edges(mesh, map, unused, overlap);
   throw_if_any({clockwise, flat, unused, overlap});
+  return map;
 }
 
 }  // namespace udar

@@ -29,6 +29,7 @@ struct Mesh {
   std::vector<Vec2> nodes;  ///< m
   std::vector<std::array<Index, 3>> triangles;
   std::vector<NamedEdges> sides;
+  std::vector<Edge> boundary;  ///< all of it, as `boundary_edges` has it; only renumbered meshes bring it along
   /// Number of each node and triangle as the generator or the user's file counted, from 0; renumbering keeps them.
   std::vector<Index> node_numbers;
   std::vector<Index> triangle_numbers;

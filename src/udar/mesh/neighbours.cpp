@@ -28,4 +28,15 @@ std::vector<std::array<Index, 3>> neighbours(std::span<const std::array<Index, 3
   return across;
 }
 
+std::vector<Edge> outer_sides(std::span<const std::array<Index, 3>> triangles,
+                              std::span<const std::array<Index, 3>> across) {
+  std::vector<Edge> edges;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      if (across[t][k] == none) edges.push_back({triangles[t][k], triangles[t][next_corner(k)]});
+    }
+  }
+  return edges;
+}
+
 }  // namespace udar

@@ -20,4 +20,8 @@ constexpr int next_corner(int local) { return local == 2 ? 0 : local + 1; }
 /// boundary. All triangles must run counter-clockwise. Linear in their number.
 std::vector<std::array<Index, 3>> neighbours(std::span<const std::array<Index, 3>> triangles, const NodeCorners& map);
 
+/// The sides of triangles that have nothing across, in the order of the triangles.
+std::vector<Edge> outer_sides(std::span<const std::array<Index, 3>> triangles,
+                              std::span<const std::array<Index, 3>> across);
+
 }  // namespace udar

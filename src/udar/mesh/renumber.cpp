@@ -1,11 +1,15 @@
 #include "udar/mesh/renumber.hpp"
 
+#include "udar/mesh/boundary.hpp"
 #include "udar/mesh/neighbours.hpp"
 #include "udar/mesh/sweep.hpp"
 
 namespace udar {
 
-Mesh renumber(const Mesh& mesh) {
+Mesh renumber(const Mesh& mesh) { return renumber(mesh, node_corners(mesh.nodes.size(), mesh.triangles)); }
+
+Mesh renumber(const Mesh& mesh, NodeCorners corners) {
+  const Sweep sweep = sweep_through(mesh, std::move(corners));
   Mesh out;
   out.nodes.reserve(mesh.nodes.size());
   out.node_numbers.reserve(mesh.nodes.size());
@@ -20,7 +24,7 @@ Mesh renumber(const Mesh& mesh) {
     }
     return new_node[old];
   };
-  for (const Index t : sweep_order(mesh)) {
+  for (const Index t : sweep.triangles) {
     const auto& [a, b, c] = mesh.triangles[t];
     out.triangles.push_back({move_node(a), move_node(b), move_node(c)});
     out.triangle_numbers.push_back(mesh.triangle_numbers[t]);
@@ -29,6 +33,8 @@ Mesh renumber(const Mesh& mesh) {
     out.sides.push_back({side.name, {}});
     for (const Edge e : side.edges) out.sides.back().edges.push_back({new_node[e.a], new_node[e.b]});
   }
+  for (const Edge e : sweep.boundary) out.boundary.push_back({new_node[e.a], new_node[e.b]});
+  out.boundary = end_to_end(std::move(out.boundary));
   return out;
 }
 

@@ -72,13 +72,7 @@ struct Starts {
   std::size_t at_end = 0;  ///< so many of them lie on the end
 };
 
-Starts find_starts(const Mesh& mesh, const std::vector<std::array<Index, 3>>& across) {
-  std::vector<Edge> edges;
-  for (Index t = 0; t < across.size(); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      if (across[t][k] == none) edges.push_back({mesh.triangles[t][k], mesh.triangles[t][next_corner(k)]});
-    }
-  }
+Starts find_starts(const Mesh& mesh, const std::vector<Edge>& edges) {
   std::vector<Vec2> points;
   double edge_length = 0;
   for (const Edge e : edges) {
@@ -99,7 +93,7 @@ Starts find_starts(const Mesh& mesh, const std::vector<std::array<Index, 3>>& ac
 }
 
 /// A sweep under way.
-struct Sweep {
+struct Front {
   const Mesh& mesh;
   NodeCorners map;
   std::vector<std::array<Index, 3>> across;
@@ -110,9 +104,9 @@ struct Sweep {
   std::vector<bool> taken;    ///< for each triangle
   std::vector<bool> reached;  ///< for each node
 
-  explicit Sweep(const Mesh& swept)
+  Front(const Mesh& swept, NodeCorners corners)
       : mesh(swept),
-        map(node_corners(mesh.nodes.size(), mesh.triangles)),
+        map(std::move(corners)),
         across(neighbours(mesh.triangles, map)),
         partner(pair_triangles(mesh, across)),
         taken(mesh.triangles.size()),
@@ -165,17 +159,18 @@ struct Sweep {
 
 }  // namespace
 
-std::vector<Index> sweep_order(const Mesh& mesh) {
-  Sweep sweep(mesh);
-  const Starts starts = find_starts(mesh, sweep.across);
-  for (std::size_t i = 0; i < starts.at_end; ++i) sweep.reach(starts.places[i].node);
+Sweep sweep_through(const Mesh& mesh, NodeCorners corners) {
+  Front front(mesh, std::move(corners));
+  std::vector<Edge> boundary = outer_sides(mesh.triangles, front.across);
+  const Starts starts = find_starts(mesh, boundary);
+  for (std::size_t i = 0; i < starts.at_end; ++i) front.reach(starts.places[i].node);
   for (const Place& place : starts.places) {
-    sweep.run();
-    sweep.reach(place.node);  // of the next piece, if it was not reached
+    front.run();
+    front.reach(place.node);  // of the next piece, if it was not reached
   }
-  sweep.run();
-  assert(sweep.order.size() == mesh.triangles.size());
-  return std::move(sweep.order);
+  front.run();
+  assert(front.order.size() == mesh.triangles.size());
+  return {std::move(front.order), std::move(boundary)};
 }
 
 }  // namespace udar

@@ -3,8 +3,15 @@
 #include <vector>
 
 #include "udar/mesh/mesh.hpp"
+#include "udar/mesh/node_corners.hpp"
 
 namespace udar {
+
+/// What a sweep through a body finds.
+struct Sweep {
+  std::vector<Index> triangles;  ///< in the order of the sweep
+  std::vector<Edge> boundary;    ///< sides that only one triangle has, in no order
+};
 
 /// Triangles in the order of a sweep through the body from one end to the other, the halves of a pair
 /// (`pair_triangles`) one after the other. All uses of a node come close together: within about one column of cells on
@@ -21,6 +28,6 @@ namespace udar {
 /// crossed ones, 1.7 against 3.1 on a Delaunay mesh, 2 against 44 where the size of elements changes by 20, 4.4 against
 /// 12 on a ring, whose two arms are swept together. Starting from one outermost node, as George and Liu (1979) do,
 /// makes it 2.0 on plain cuts and 2.5 on a Delaunay mesh: the front then lies askew.
-std::vector<Index> sweep_order(const Mesh& mesh);
+Sweep sweep_through(const Mesh& mesh, NodeCorners corners);
 
 }  // namespace udar
