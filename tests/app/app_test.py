@@ -179,12 +179,23 @@ class Check(Program):
             r"stop: half_plane, friction 0\.35, springs of .* at each of 24 outer nodes\n",
             r"time step  .* automatic; stable up to .* ns, limited by block element \d+",
             r"steps      \d+, more as elements deform\n",
-            r"memory     .* kB\n",
+            r"memory     about .* MB\n",
             r"time       about .* s with 1 thread, and what writing the fields takes\n",
             r"0 errors, 0 warnings; nothing was run\n$",
         ]:
             self.assertRegex(out, pattern)
         self.assertEqual(self.names("."), {"block.toml"})
+
+    def test_is_right_about_memory(self):
+        words = ["block.toml", "--set", "bodies.block.mesh.element_size=0.0125 cm"]  # 102 400 elements
+        out, _ = self.udar("check", *words)
+        told = float(re.search(r"memory     about (.*) MB", out)[1])
+        run = subprocess.Popen([PROGRAM, "run", *words, "--set", "run.end_time=0.5 us", "--output", "out"],
+                               cwd=self.folder, stdout=subprocess.DEVNULL)
+        _, status, usage = os.wait4(run.pid, 0)
+        run.returncode = os.waitstatus_to_exitcode(status)
+        self.assertEqual(run.returncode, 0)
+        self.assertAlmostEqual(told, 1.024e-3 * usage.ru_maxrss, delta=0.1 * told)
 
     def test_is_right_about_steps(self):
         words = ["--set", "run.time_step=0.1 us"]

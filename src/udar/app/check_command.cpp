@@ -1,3 +1,5 @@
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -8,6 +10,7 @@
 #include "udar/app/terminal.hpp"
 #include "udar/case/reference.hpp"
 #include "udar/output/summarise.hpp"
+#include "udar/simulation/last_good.hpp"
 #include "udar/simulation/simulation.hpp"
 #include "udar/step/integrators.hpp"
 #include "udar/step/step.hpp"
@@ -22,20 +25,12 @@ void row(std::string_view label, std::string_view name, const std::string& text)
   say("  {:<11}{}{}{}\n", label, name, name.empty() ? "" : ": ", text);
 }
 
-/// Bytes of everything that a run keeps for all its steps: the state, its last good copy, the model's large arrays.
-std::size_t memory_of(const Model& model, const State& state) {
-  std::size_t bytes = 0;
-  for_each_field(state, [&](const char*, const auto& field) {
-    if constexpr (requires { field.size(); }) {
-      bytes += field.size() * sizeof(field[0]);
-    } else {
-      bytes += sizeof field;
-    }
-  });
-  bytes *= 2;
-  bytes += model.rest.size() * (2 * sizeof(Vec2) + 2 * sizeof(double) + 2 * sizeof(Index));
-  bytes += model.corners.size() * (2 * sizeof(Vec2) + 3 * sizeof(Vec2) + 6 * sizeof(Index));
-  return bytes;
+/// Bytes that this process has held at most: once it has done some steps, what a run will. Asked of the system, since a
+/// list of arrays would be out of date with the next one.
+double memory_so_far() {
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
 void print_bodies(const Model& model) {
@@ -124,8 +119,10 @@ void print_time_step(const Model& model, const Clock& clock) {
   }
 }
 
-/// Seconds of one step, from a few done on a copy.
-double step_seconds(const Model& model, State state, Workspace& work) {
+/// Seconds of one step, from a few done with what a run keeps.
+double step_seconds(const Model& model, State& state, Workspace& work) {
+  LastGood last_good(model);
+  last_good.keep(state);
   const auto begin = steady_clock::now();
   const auto spent = [&] { return std::chrono::duration<double>(steady_clock::now() - begin).count(); };
   int steps = 0;
@@ -140,11 +137,12 @@ double step_seconds(const Model& model, State state, Workspace& work) {
   return steps > 0 ? spent() / steps : 0;
 }
 
-void print_cost(const Model& model, const State& state, Workspace& work) {
+/// Does a few steps to find out.
+void print_cost(const Model& model, State& state, Workspace& work) {
   const double steps = std::ceil(model.run.end_time / state.clock.next_step * (1 - 1e-9));
   row("steps", "", fmt::format("{:.0f}{}", steps, model.run.time_step ? "" : ", more as elements deform"));
-  row("memory", "", in_units(static_cast<double>(memory_of(model, state)), "B"));
   const double each = step_seconds(model, state, work);
+  row("memory", "", "about " + in_units(memory_so_far(), "B"));
   const std::string threads = counted(work.pool.threads(), "thread");
   row("time", "", fmt::format("about {:.2g} s with {}, and what writing the fields takes", steps * each, threads));
 }
@@ -156,7 +154,7 @@ ExitCode check_command(const RunArguments& arguments) {
   const Simulation simulation(load_case(arguments.case_file, arguments.assignments, &warnings));
   const Model& model = simulation.model();
   Workspace work(model, threads_for(model));
-  const State state = start(model, work);
+  State state = start(model, work);
   print_warnings(warnings);
 
   say("{}\n", std::filesystem::path(arguments.case_file).stem().string());

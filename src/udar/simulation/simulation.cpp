@@ -136,7 +136,7 @@ void Simulation::observe(std::function<void(const Model&, const State&)> watch) 
 }
 
 void Simulation::compute(const RunOptions& options, Workspace& work, const std::function<void()>& look, Stop& stop) {
-  LastGood last_good;
+  LastGood last_good(model_);
   look();
   while (!finished(model_, state_)) {
     if (options.interrupted && options.interrupted()) {
@@ -146,7 +146,7 @@ void Simulation::compute(const RunOptions& options, Workspace& work, const std::
     try {
       step(model_, state_, work);
     } catch (const NumericalError& failure) {
-      state_ = last_good.before(state_.clock.step, model_, work);
+      state_ = last_good.before(state_.clock.step, work);
       return stop.because("numerical", failure.what());
     }
     look();
@@ -175,8 +175,9 @@ Summary Simulation::run(const RunOptions& options) {
   }
 
   const double seconds = seconds_since(begin);
+  const Summary sums = summarise(model_, state_);
   const auto conclude = [&] {
-    Summary s = summarise(model_, state_);
+    Summary s = sums;
     s.version = version_text();
     s.case_name = options.case_name;
     s.threads = work.pool.threads();
