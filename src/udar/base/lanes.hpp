@@ -48,7 +48,7 @@ struct Pack {
 
   Pack() = default;
   Pack(Vector vector) : v(vector) {}
-  explicit Pack(double s) : v(Vector{} + s) {}
+  explicit Pack(double s) : v(s - Vector{}) {}  // + would lose the sign of a zero
 
   // Arrays begin where the allocator says. Named instructions, since g++ 12 may make two halves of a copy of 32 bytes,
   // which the next reader then has to wait for.
@@ -111,7 +111,10 @@ struct Mask {
 inline Mask operator>(Pack a, Pack b) { return {Pack::Vector(a.v > b.v)}; }
 inline Mask operator<(Pack a, Pack b) { return {Pack::Vector(a.v < b.v)}; }
 inline Pack select(Mask m, Pack a, Pack b) { return decltype(Pack::Vector{} > Pack::Vector{})(m.lanes) ? a.v : b.v; }
-inline Pack fabs(Pack a) { return a.v < 0 ? -a.v : a.v; }
+inline Pack fabs(Pack a) {
+  using Bits = decltype(Pack::Vector{} > Pack::Vector{});
+  return Pack::Vector(Bits(a.v) & ~Bits(Pack(-0.0).v));  // a comparison would leave the sign of a zero
+}
 #if defined(__AVX2__)
 inline Pack larger(Pack a, Pack b) { return Pack::Vector(_mm256_max_pd(a.v, b.v)); }
 inline Pack smaller(Pack a, Pack b) { return Pack::Vector(_mm256_min_pd(a.v, b.v)); }
