@@ -61,7 +61,7 @@ struct Clock {
   double next_step = 0;            ///< s, h_{n+1}
   std::uint64_t next_is_last = 0;  ///< 1 where the next step ends on the end time
   double planned_step = 0;         ///< s, the last one chosen, before it was fitted to the end time
-  StepLimit limit;                 ///< at t_n, at most half a percent below the exact one
+  StepLimit limit;                 ///< at t_n; see choose_time_step for how near the exact one
   double compute_above = 0;        ///< 1/s2: a block whose bound is above computes its frequency in the next step
   double start_limit = 0;          ///< s, stable limit at t = 0
   StepLimit tightest;              ///< smallest stable limit so far, and what set it

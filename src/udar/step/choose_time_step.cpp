@@ -42,8 +42,9 @@ StepLimit stable_limit(const Model& model, const State& state) {
   return found;
 }
 
-/// Blocks whose bound rises above this compute their frequency: the step is then at most half a percent smaller than
-/// it might be, and of a block that is not among the stiffest hardly anything has to be computed.
+/// Blocks whose bound rises above this compute their frequency, so of a block that is not among the stiffest hardly
+/// anything has to be computed. The step is then at most half a percent smaller than it might be, or one percent where
+/// the stiffest elements have relaxed since; more in single steps of violent motion, never larger.
 double next_threshold(const State& state) {
   constexpr double slack = 1.01;
   double largest = 0;
