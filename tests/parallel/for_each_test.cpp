@@ -70,6 +70,19 @@ TEST_CASE("threads that fell asleep wake up") {
   }
 }
 
+TEST_CASE("nobody waits for a thread that does not come") {
+  // It takes microseconds to wake up, a block that does nothing takes none. Now and then the others come in time.
+  Pool pool(4);
+  int alone = 0;
+  for (int round = 0; round < 20; ++round) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    std::vector<std::thread::id> who(4);
+    pool.for_each_block(4, [&](std::size_t block) { who[block] = std::this_thread::get_id(); });
+    alone += who == std::vector<std::thread::id>(4, std::this_thread::get_id()) ? 1 : 0;
+  }
+  CHECK(alone > 0);
+}
+
 TEST_CASE("an exception comes out on the caller and the pool lives on") {
   for (const int threads : {1, 2, 4}) {
     Pool pool(threads);

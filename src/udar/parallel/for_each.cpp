@@ -1,6 +1,7 @@
 #include "udar/parallel/for_each.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <string>
 #include <system_error>
 
@@ -9,39 +10,41 @@
 namespace udar {
 namespace {
 
+constexpr std::uint64_t one_round = std::uint64_t{1} << 32;
+
+bool is_open(std::uint64_t gate) { return (gate & one_round) != 0; }
+std::uint64_t round_of(std::uint64_t gate) { return gate / one_round; }
+std::uint64_t inside(std::uint64_t gate) { return gate % one_round; }
+
 void relax() {
 #if defined(__x86_64__)
   __builtin_ia32_pause();
 #endif
 }
 
-/// Waits until `value` is no longer `old`. A few microseconds of spinning cover the gap between two loops of a step,
-/// some hundred yields a core shared with another job; longer pauses (output, the end of the run) are slept through.
-std::uint32_t wait_for_change(const std::atomic<std::uint32_t>& value, std::uint32_t old) {
-  constexpr int spins = 500;
-  constexpr int yields = 500;
-  for (int i = 0; i < spins + yields; ++i) {
-    const std::uint32_t now = value.load(std::memory_order_acquire);
-    if (now != old) return now;
-    if (i < spins) {
+/// Spins until `ready`, for as long as what one thread does between two loops may take. Returns whether it came.
+template <class Ready>
+bool spin_until(Ready&& ready) {
+  constexpr auto patience = std::chrono::microseconds(100);
+  constexpr int between_looks_at_clock = 32;
+  const auto begin = std::chrono::steady_clock::now();
+  do {
+    for (int i = 0; i < between_looks_at_clock; ++i) {
+      if (ready()) return true;
       relax();
-    } else {
-      std::this_thread::yield();
     }
-  }
-  value.wait(old, std::memory_order_acquire);
-  return value.load(std::memory_order_acquire);
+  } while (std::chrono::steady_clock::now() - begin < patience);
+  return false;
 }
 
 }  // namespace
 
 int available_threads() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
-Pool::Pool(int threads) {
+Pool::Pool(int threads) : runs_(static_cast<std::size_t>(std::max(threads, 1))) {
   if (threads < 1) throw UserError(ExitCode::usage, "the number of threads must be 1 or more");
-  thrown_.resize(static_cast<std::size_t>(threads));
   try {
-    for (std::size_t thread = 1; thread < thrown_.size(); ++thread) workers_.emplace_back([=, this] { work(thread); });
+    for (std::size_t thread = 1; thread < runs_.size(); ++thread) workers_.emplace_back([=, this] { work(thread); });
   } catch (const std::system_error&) {
     go_home();
     throw UserError(ExitCode::resources, "the system gives no " + std::to_string(threads) + " threads",
@@ -53,55 +56,110 @@ Pool::~Pool() { go_home(); }
 
 void Pool::go_home() {
   job_ = {};
-  round_.fetch_add(1, std::memory_order_release);
-  round_.notify_all();
+  open_gate();
   for (std::thread& worker : workers_) worker.join();
 }
 
 void Pool::share_out(const Job& job) {
   job_ = job;
-  still_working_.store(static_cast<std::uint32_t>(workers_.size()), std::memory_order_relaxed);
-  round_.fetch_add(1, std::memory_order_release);
-  round_.notify_all();
-  run_share(0);
-  std::uint32_t left = still_working_.load(std::memory_order_acquire);
-  while (left != 0) left = wait_for_change(still_working_, left);
+  for (Run& run : runs_) run.taken.store(false, std::memory_order_relaxed);
+  open_gate();
+  take_runs(0);
+  close_gate();
+  rethrow_first();
+}
 
+std::size_t Pool::begin_of(std::size_t blocks, std::size_t run) const {
+  const std::size_t runs = runs_.size();
+  return blocks / runs * run + blocks % runs * run / runs;  // blocks * run / runs, no overflow
+}
+
+std::size_t Pool::run_of(std::size_t blocks, std::size_t block) const {
+  std::size_t run = 0;
+  while (begin_of(blocks, run + 1) <= block) ++run;
+  return run;
+}
+
+/// A thread's own run, if nobody has taken it, then those that wait for their threads.
+void Pool::take_runs(std::size_t thread) {
+  for (std::size_t k = 0; k < runs_.size(); ++k) {
+    const std::size_t run = (thread + k) % runs_.size();
+    // Relaxed: runs do not depend on each other, and the gate orders everything else.
+    if (!runs_[run].taken.exchange(true, std::memory_order_relaxed)) do_run(run);
+  }
+}
+
+void Pool::do_run(std::size_t run) {
+  try {
+    job_.run(job_.function, begin_of(job_.blocks, run), begin_of(job_.blocks, run + 1));
+  } catch (...) {
+    runs_[run].thrown = std::current_exception();
+  }
+}
+
+void Pool::rethrow_first() {
   std::exception_ptr first;
-  for (std::exception_ptr& thrown : thrown_) {
-    if (thrown && !first) first = thrown;
-    thrown = nullptr;
+  for (Run& run : runs_) {
+    if (run.thrown && !first) first = run.thrown;
+    run.thrown = nullptr;
   }
   if (first) std::rethrow_exception(first);
 }
 
-std::size_t Pool::begin_of(std::size_t blocks, std::size_t thread) const {
-  const std::size_t threads = thrown_.size();
-  return blocks / threads * thread + blocks % threads * thread / threads;  // blocks * thread / threads, no overflow
+// Who goes to sleep first says so, then looks at the gate; who changes the gate looks for sleepers afterwards. All of
+// these are sequentially consistent, so one of the two sees the other.
+
+void Pool::open_gate() {
+  gate_.fetch_add(one_round);
+  if (asleep_.load() == 0) return;
+  const std::lock_guard lock(bed_);
+  wake_.notify_all();
 }
 
-std::size_t Pool::thread_of(std::size_t blocks, std::size_t block) const {
-  std::size_t thread = 0;
-  while (begin_of(blocks, thread + 1) <= block) ++thread;
-  return thread;
+/// All runs are taken; waits for those that workers are still at.
+void Pool::close_gate() {
+  gate_.fetch_add(one_round);
+  const auto all_left = [&] { return inside(gate_.load()) == 0; };
+  if (spin_until(all_left)) return;
+  std::unique_lock lock(bed_);
+  ++asleep_;
+  wake_.wait(lock, all_left);
+  --asleep_;
 }
 
-void Pool::run_share(std::size_t thread) {
-  try {
-    job_.run(job_.function, begin_of(job_.blocks, thread), begin_of(job_.blocks, thread + 1));
-  } catch (...) {
-    thrown_[thread] = std::current_exception();
+/// Waits for a round other than `round` and goes in, if it is still open then.
+bool Pool::enter_gate(std::uint64_t& round) {
+  const auto opened = [&] {
+    const std::uint64_t gate = gate_.load();
+    return is_open(gate) && round_of(gate) != round;
+  };
+  if (!spin_until(opened)) {
+    std::unique_lock lock(bed_);
+    ++asleep_;
+    wake_.wait(lock, opened);
+    --asleep_;
   }
+  std::uint64_t gate = gate_.load();
+  while (is_open(gate) && !gate_.compare_exchange_weak(gate, gate + 1)) {
+  }
+  round = round_of(gate);
+  return is_open(gate);
+}
+
+void Pool::leave_gate() {
+  const std::uint64_t before = gate_.fetch_sub(1);
+  if (inside(before) != 1 || is_open(before) || asleep_.load() == 0) return;
+  const std::lock_guard lock(bed_);
+  wake_.notify_all();
 }
 
 void Pool::work(std::size_t thread) {
-  std::uint32_t round = 0;
+  std::uint64_t round = 0;
   while (true) {
-    // Every round is seen: the next one begins only when all have finished this one.
-    round = wait_for_change(round_, round);
+    if (!enter_gate(round)) continue;
     if (job_.run == nullptr) return;
-    run_share(thread);
-    if (still_working_.fetch_sub(1, std::memory_order_acq_rel) == 1) still_working_.notify_one();
+    take_runs(thread);
+    leave_gate();
   }
 }
 

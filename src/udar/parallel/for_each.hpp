@@ -1,10 +1,12 @@
 #pragma once
 
 #include <atomic>
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <memory>
+#include <mutex>
 #include <thread>
 #include <type_traits>
 #include <vector>
@@ -14,8 +16,13 @@ namespace udar {
 /// Threads that the machine runs at once; at least 1.
 int available_threads();
 
-/// Threads that share out the blocks of a loop. Between two loops they spin for a moment, then yield, then sleep: a
-/// pure spin barrier collapses when another job shares the cores, and sleeping at once costs more than a small loop.
+/// Threads that share out the blocks of a loop: as many runs of neighbours as there are threads. Every thread takes its
+/// own run, always the same one, so that its data stay in its caches. The run of a thread that does not come, since the
+/// system has put it aside for another job, is taken by who is done: nobody waits but for a thread that is at work.
+///
+/// Between two loops threads spin for a moment, then sleep: a pure spin barrier collapses when another job shares the
+/// cores, and sleeping at once costs more than a small loop. They never yield (as std::atomic::wait does): Linux lets a
+/// thread that yields beside another job wait for milliseconds, hundreds of times as long as a loop takes.
 ///
 /// Sums over blocks: let every block write its own partial sum and add those up in the order of the blocks after the
 /// loop. The result then has the same bits for any number of threads.
@@ -30,7 +37,7 @@ class Pool {
 
   [[nodiscard]] int threads() const { return static_cast<int>(workers_.size()) + 1; }
 
-  /// Calls f(block) for every block in 0 .. blocks - 1; each thread takes the run of neighbours that `thread_of` says.
+  /// Calls f(block) for every block in 0 .. blocks - 1; those of one run (`run_of`) one after another, by one thread.
   /// Returns when all are done. What f throws is thrown here (of several, that of the lowest run); the rest of a run
   /// that threw is left out. Not to be called from within f, nor from two threads at once. Allocates nothing.
   template <class F>
@@ -52,8 +59,8 @@ class Pool {
     share_out({run, const_cast<void*>(static_cast<const void*>(std::addressof(f))), blocks});
   }
 
-  /// Which thread takes a block of so many.
-  [[nodiscard]] std::size_t thread_of(std::size_t blocks, std::size_t block) const;
+  /// Which run has a block of so many.
+  [[nodiscard]] std::size_t run_of(std::size_t blocks, std::size_t block) const;
 
  private:
   struct Job {
@@ -61,19 +68,33 @@ class Pool {
     void* function = nullptr;
     std::size_t blocks = 0;
   };
-  /// First block of a thread's run.
-  [[nodiscard]] std::size_t begin_of(std::size_t blocks, std::size_t thread) const;
+  /// On a cache line of its own.
+  struct alignas(64) Run {
+    std::atomic<bool> taken{false};
+    std::exception_ptr thrown;
+  };
+  /// First block of a run.
+  [[nodiscard]] std::size_t begin_of(std::size_t blocks, std::size_t run) const;
   void share_out(const Job& job);
-  void run_share(std::size_t thread);
+  void take_runs(std::size_t thread);
+  void do_run(std::size_t run);
+  void rethrow_first();
+  void open_gate();
+  void close_gate();
+  bool enter_gate(std::uint64_t& round);
+  void leave_gate();
   void work(std::size_t thread);
   void go_home();
 
   Job job_;
-  std::vector<std::exception_ptr> thrown_;  ///< one for each thread
+  std::vector<Run> runs_;  ///< one for each thread
   std::vector<std::thread> workers_;
-  // On cache lines of their own: everyone watches the first, everyone writes the second.
-  alignas(64) std::atomic<std::uint32_t> round_{0};
-  alignas(64) std::atomic<std::uint32_t> still_working_{0};
+  /// Workers that are in the loop, in the lower half; the upper half counts how often it was opened and closed, and is
+  /// odd while it is open. On a cache line of its own, since everyone watches it.
+  alignas(64) std::atomic<std::uint64_t> gate_{0};
+  alignas(64) std::atomic<int> asleep_{0};
+  std::mutex bed_;
+  std::condition_variable wake_;
 };
 
 }  // namespace udar

@@ -57,7 +57,7 @@ void QuadForces::plan(const Model& model, const Pool& pool) {
   for (std::size_t n = 0; n < reach.size(); ++n) {
     const auto [first, last] = reach[n];
     if (first > last) continue;
-    const bool early = pool.thread_of(element_blocks_, first) == pool.thread_of(element_blocks_, last);
+    const bool early = pool.run_of(element_blocks_, first) == pool.run_of(element_blocks_, last);
     if (early) {
       early_.push_back({last, n});
     } else {
@@ -69,12 +69,12 @@ void QuadForces::plan(const Model& model, const Pool& pool) {
   }
   std::stable_sort(early_.begin(), early_.end(), [](const Early& a, const Early& b) { return a.after < b.after; });
 
-  // Threads run side by side: each has places of its own.
+  // Runs are done side by side: each has places of its own.
   place_.resize(element_blocks_);
   std::vector<std::size_t> busy_until;
   std::size_t first_place = 0;
   for (std::size_t b = 0; b < element_blocks_; ++b) {
-    if (b > 0 && pool.thread_of(element_blocks_, b) != pool.thread_of(element_blocks_, b - 1)) {
+    if (b > 0 && pool.run_of(element_blocks_, b) != pool.run_of(element_blocks_, b - 1)) {
       first_place = busy_until.size();
     }
     std::size_t place = first_place;

@@ -18,7 +18,7 @@ namespace udar {
 ///
 /// A block of nodes is summed as soon as the last of its elements is done, while their forces are still in the cache;
 /// what they were written to then serves other blocks. So forces never travel to main memory, which bounds the speed of
-/// large meshes. Nodes between the elements of two threads have to wait until both are done.
+/// large meshes. Nodes between the elements of two runs have to wait until both are done.
 class QuadForces {
  public:
   QuadForces(const Model& model, const Pool& pool);
@@ -50,7 +50,7 @@ class QuadForces {
  private:
   static constexpr std::size_t forces_per_block = 4 * std::size_t{elements_per_block};
 
-  /// A block of nodes that is complete after an element block, both of one thread.
+  /// A block of nodes that is complete after an element block, both of one run of the pool.
   struct Early {
     std::size_t after;
     std::size_t nodes;
@@ -63,7 +63,7 @@ class QuadForces {
   std::size_t element_blocks_;
   const std::vector<NodeBlock>& node_blocks_;
   std::vector<Early> early_;            ///< in the order in which they are complete
-  std::vector<std::size_t> late_;       ///< blocks of nodes that more than one thread has elements at
+  std::vector<std::size_t> late_;       ///< blocks of nodes that more than one run has elements at
   std::vector<std::size_t> place_;      ///< of each element block's forces, in units of a full block
   Array<Vec2> forces_;                  ///< N
   std::vector<std::uint32_t> offsets_;  ///< those of node i are slots_[offsets_[i]] to slots_[offsets_[i + 1] - 1]
