@@ -5,7 +5,7 @@ usage: busy_test.py PROGRAM SOURCE_FOLDER [unittest options]
 
 Two threads beside two jobs on two cores: half of the cores is theirs, so a run may take twice as long as alone. Threads
 that wait for each other lose some of it whenever one of them is put aside; four times as long is allowed. Threads that
-yield or spin while the other one is put aside need sixty times as long. Each time is the least of several, taken in
+yield while the other one is put aside need ten to sixty times as long. Each time is the least of several, taken in
 turn, since the machine may have more to do.
 """
 
