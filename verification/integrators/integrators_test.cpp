@@ -22,7 +22,7 @@ struct Oscillator {
   explicit Oscillator(Integrator kind, double step, double start_speed = speed)
       : model(build_model(with(kind, start_speed))), work(model, 1), state(rest_state(model)) {
     deform_elements(model, state, work);
-    add_contact_force(model, state);
+    add_contact_force(model, state, work);
     choose_time_step(model, state);
     state.clock.next_step = step;
     open_books(model, state);
@@ -39,7 +39,7 @@ struct Oscillator {
   void step(double next) {
     advance_clock(model, state);
     deform_elements(model, state, work);
-    add_contact_force(model, state);
+    add_contact_force(model, state, work);
     choose_time_step(model, state);
     state.clock.next_step = next;
     accelerate_nodes(model, state, work);

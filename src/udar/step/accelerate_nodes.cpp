@@ -104,7 +104,7 @@ void accelerate_nodes(const Model& model, State& state, Workspace& work) {
     task.mass = &model.mass[block.begin];
     task.inverse_mass = &model.inverse_mass[block.begin];
     task.internal = &work.forces.internal[block.begin];
-    task.external = work.pushed[b] != 0 ? &state.external[block.begin] : nullptr;
+    task.external = work.outer_nodes[b].any_pushed() ? &state.external[block.begin] : nullptr;
     task.acceleration = &state.acceleration[block.begin];
     if (multistep) {
       task.velocity = &state.velocity[block.begin];

@@ -10,21 +10,13 @@ namespace {
 /// Dashpot of a contact spring with the given fraction of critical damping on its node, N s/m.
 double dashpot(double fraction, double stiffness, double mass) { return 2 * fraction * std::sqrt(stiffness * mass); }
 
-/// What the springs of all nodes on one obstacle add up to.
-struct ObstacleSums {
-  std::uint64_t touching = 0;
-  double normal_energy = 0;        ///< J
-  double tangential_energy = 0;    ///< J
-  double largest_penetration = 0;  ///< over the length of the boundary edges at the node
-};
-
 template <class PreparedShape>
-ObstacleSums touch_obstacle(const Model& model, State& state, const Obstacle& obstacle, const PreparedShape& shape,
-                            SpringState* springs, SpringLosses& losses) {
+ContactSums touch_obstacle(const Model& model, State& state, const Obstacle& obstacle, const PreparedShape& shape,
+                           const OuterNodes& nodes, SpringState* springs) {
   const double h = state.clock.last_step;
   const Vec2 moved = state.clock.time.value() * obstacle.velocity;
-  ObstacleSums sums;
-  for (std::size_t c = 0; c < model.contact_nodes.size(); ++c) {
+  ContactSums sums;
+  for (std::size_t c = nodes.contact_begin; c < nodes.contact_end; ++c) {
     const Index node = model.contact_nodes[c];
     const NodeRecord& record = state.nodes[node];
     const Vec2 place = place_after(record, h) - moved;
@@ -33,7 +25,7 @@ ObstacleSums touch_obstacle(const Model& model, State& state, const Obstacle& ob
     const ContactSprings stiffness{obstacle.normal_stiffness[c], obstacle.tangential_stiffness[c], obstacle.friction,
                                    dashpot(model.contact.damping, obstacle.normal_stiffness[c], model.mass[node])};
     const Vec2 move = h * (Vec2{record.vx, record.vy} - obstacle.velocity);
-    springs[c] = spring_step(springs[c], shape.gap(place), move, h, stiffness, losses);
+    springs[c] = spring_step(springs[c], shape.gap(place), move, h, stiffness, sums.losses);
     if (springs[c].touches == 0) continue;
 
     ++sums.touching;
@@ -45,28 +37,44 @@ ObstacleSums touch_obstacle(const Model& model, State& state, const Obstacle& ob
   return sums;
 }
 
-}  // namespace
-
-void add_contact_force(const Model& model, State& state) {
-  for (const Index node : model.pushed_nodes) state.external[node] = {};
-
+void enter_sums(const Model& model, State& state, const Workspace& work) {
   Ledger& ledger = state.ledger;
   ledger.contact_energy = 0;
   ledger.tangential_energy = 0;
   SpringLosses losses;
-  SpringState* springs = state.contacts.data();
-  for (std::size_t o = 0; o < model.obstacles.size(); ++o, springs += model.contact_nodes.size()) {
-    const Obstacle& obstacle = model.obstacles[o];
-    const ObstacleSums sums =
-        std::visit([&](const auto& shape) { return touch_obstacle(model, state, obstacle, shape, springs, losses); },
-                   obstacle.prepared);
-    state.obstacles[o].touching = sums.touching;
-    ledger.contact_energy += sums.normal_energy;
-    ledger.tangential_energy += sums.tangential_energy;
-    state.largest_penetration = std::max(state.largest_penetration, sums.largest_penetration);
+  const ContactSums* sums = work.contact_sums.data();
+  for (std::size_t o = 0; o < model.obstacles.size(); ++o) {
+    state.obstacles[o].touching = 0;
+    for (std::size_t b = 0; b < model.node_blocks.size(); ++b, ++sums) {
+      state.obstacles[o].touching += sums->touching;
+      ledger.contact_energy += sums->normal_energy;
+      ledger.tangential_energy += sums->tangential_energy;
+      losses.friction += sums->losses.friction;
+      losses.dropped += sums->losses.dropped;
+      state.largest_penetration = std::max(state.largest_penetration, sums->largest_penetration);
+    }
   }
   ledger.friction_work.add(losses.friction);
   ledger.dropped_energy.add(losses.dropped);
+}
+
+}  // namespace
+
+void add_contact_force(const Model& model, State& state, Workspace& work) {
+  // Each thread looks at its own nodes: fetched from another one's cache they would cost more than all else here.
+  const std::size_t blocks = model.node_blocks.size();
+  work.pool.for_each_block(blocks, [&](std::size_t b) {
+    const OuterNodes& nodes = work.outer_nodes[b];
+    for (std::size_t k = nodes.pushed_begin; k < nodes.pushed_end; ++k) state.external[model.pushed_nodes[k]] = {};
+    SpringState* springs = state.contacts.data();
+    for (std::size_t o = 0; o < model.obstacles.size(); ++o, springs += model.contact_nodes.size()) {
+      const Obstacle& obstacle = model.obstacles[o];
+      work.contact_sums[o * blocks + b] =
+          std::visit([&](const auto& shape) { return touch_obstacle(model, state, obstacle, shape, nodes, springs); },
+                     obstacle.prepared);
+    }
+  });
+  enter_sums(model, state, work);
 }
 
 }  // namespace udar

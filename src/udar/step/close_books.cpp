@@ -77,23 +77,27 @@ class Booking {
 };
 
 /// Contact forces, obstacle by obstacle; returns the account of the moving obstacles' own work.
-Account enter_contacts(const Model& model, State& state, const Booking& booking) {
+Account enter_contacts(const Model& model, State& state, const Workspace& work, const Booking& booking) {
   Account normal, friction, damping, obstacle_work;
   const std::size_t count = model.contact_nodes.size();
+  const std::size_t blocks = model.node_blocks.size();
   for (std::size_t o = 0; o < model.obstacles.size(); ++o) {
     const Vec2 velocity = model.obstacles[o].velocity;
     Account total, pressing;
-    for (std::size_t c = 0; c < count && state.obstacles[o].touching > 0; ++c) {
-      const SpringState& springs = state.contacts[o * count + c];
-      if (springs.touches == 0) continue;
-      const Vec2 before = booking.before(model.contact_nodes[c]);
-      const Vec2 after = booking.after(model.contact_nodes[c]);
-      normal.add(springs.normal_force, before, after);
-      friction.add(springs.friction_force, before, after);
-      damping.add(springs.damping_force, before, after);
-      const Vec2 pressing_force = springs.normal_force + springs.damping_force;
-      pressing.add(pressing_force, before, after);
-      total.add(pressing_force + springs.friction_force, before, after);
+    for (std::size_t b = 0; b < blocks; ++b) {
+      if (work.contact_sums[o * blocks + b].touching == 0) continue;
+      for (std::size_t c = work.outer_nodes[b].contact_begin; c < work.outer_nodes[b].contact_end; ++c) {
+        const SpringState& springs = state.contacts[o * count + c];
+        if (springs.touches == 0) continue;
+        const Vec2 before = booking.before(model.contact_nodes[c]);
+        const Vec2 after = booking.after(model.contact_nodes[c]);
+        normal.add(springs.normal_force, before, after);
+        friction.add(springs.friction_force, before, after);
+        damping.add(springs.damping_force, before, after);
+        const Vec2 pressing_force = springs.normal_force + springs.damping_force;
+        pressing.add(pressing_force, before, after);
+        total.add(pressing_force + springs.friction_force, before, after);
+      }
     }
     booking.enter(total, state.obstacles[o].total);
     booking.enter(pressing, state.obstacles[o].normal);
@@ -175,7 +179,7 @@ void close_books(const Model& model, State& state, Workspace& work) {
   ledger.carried = nodes.carried;
   const Account loads = sum_forces(model.loads, state.load_forces, booking);
   const Account supports = sum_forces(model.supports, state.support_forces, booking);
-  const Account obstacles = enter_contacts(model, state, booking);
+  const Account obstacles = enter_contacts(model, state, work, booking);
   booking.enter(gravity, ledger.book(ForceKind::gravity));
   booking.enter(loads, ledger.book(ForceKind::load));
   booking.enter(supports, ledger.book(ForceKind::support));

@@ -10,7 +10,7 @@ namespace udar {
 
 void advance_clock(const Model& model, State& state);
 void deform_elements(const Model& model, State& state, Workspace& work);
-void add_contact_force(const Model& model, State& state);
+void add_contact_force(const Model& model, State& state, Workspace& work);
 void add_load_force(const Model& model, State& state);
 void choose_time_step(const Model& model, State& state);
 void add_support_force(const Model& model, State& state, Workspace& work);

@@ -7,7 +7,7 @@ namespace udar {
 void step(const Model& model, State& state, Workspace& work) {
   advance_clock(model, state);            // t_{n+1}, with the step chosen at the end of the last one
   deform_elements(model, state, work);    // strain and turn, stress, corner forces on the way to x_{n+1}
-  add_contact_force(model, state);        // springs and friction at x_{n+1}
+  add_contact_force(model, state, work);  // springs and friction at x_{n+1}
   add_load_force(model, state);           // point forces, tractions, pressures
   choose_time_step(model, state);         // h_{n+2}, and who limits it
   add_support_force(model, state, work);  // what it takes to move the held nodes as given
@@ -17,7 +17,7 @@ void step(const Model& model, State& state, Workspace& work) {
 
 void prepare(const Model& model, State& state, Workspace& work) {
   deform_elements(model, state, work);
-  add_contact_force(model, state);
+  add_contact_force(model, state, work);
   add_load_force(model, state);
   choose_time_step(model, state);
   open_books(model, state);

@@ -10,6 +10,25 @@
 
 namespace udar {
 
+/// What the springs between the nodes of a block and one obstacle add up to.
+struct ContactSums {
+  std::uint64_t touching = 0;      ///< nodes
+  double normal_energy = 0;        ///< J
+  double tangential_energy = 0;    ///< J
+  double largest_penetration = 0;  ///< over the length of the boundary edges at the node
+  SpringLosses losses;
+};
+
+/// The nodes of a block that something may push: positions in Model::contact_nodes and Model::pushed_nodes.
+struct OuterNodes {
+  std::size_t contact_begin = 0;
+  std::size_t contact_end = 0;
+  std::size_t pushed_begin = 0;
+  std::size_t pushed_end = 0;
+
+  [[nodiscard]] bool any_pushed() const { return pushed_begin < pushed_end; }
+};
+
 /// Room for what a step computes and forgets, and the threads that compute it. Nothing here is State.
 struct Workspace {
   Workspace(const Model& model, int threads)
@@ -20,18 +39,21 @@ struct Workspace {
     std::size_t held = 0;
     for (const Support& support : model.supports) held += support.nodes.size();
     held_velocities.resize(held);
-    pushed.resize(model.node_blocks.size());
-    for (std::size_t b = 0; b < pushed.size(); ++b) {
-      const auto first =
-          std::lower_bound(model.pushed_nodes.begin(), model.pushed_nodes.end(), model.node_blocks[b].begin);
-      pushed[b] = first != model.pushed_nodes.end() && *first < model.node_blocks[b].end ? 1 : 0;
+    const auto position = [](const std::vector<Index>& nodes, Index node) {
+      return static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
+    };
+    for (const NodeBlock& block : model.node_blocks) {
+      outer_nodes.push_back({position(model.contact_nodes, block.begin), position(model.contact_nodes, block.end),
+                             position(model.pushed_nodes, block.begin), position(model.pushed_nodes, block.end)});
     }
+    contact_sums.resize(model.obstacles.size() * model.node_blocks.size());
   }
 
   Pool pool;
   BlockKernels kernels = widest_block_kernels();
   QuadForces forces;
-  std::vector<std::uint8_t> pushed;  ///< 1 for each block of nodes of which contact, loads or supports may push any
+  std::vector<OuterNodes> outer_nodes;    ///< one for each block of nodes
+  std::vector<ContactSums> contact_sums;  ///< obstacle by obstacle, one for each block of nodes
   std::vector<ElementSums> element_sums;
   std::vector<NodeSums> node_sums;
   Vec2 held_momentum{};               ///< kg m/s, what holding nodes changed in the momentum of an Adams rule
