@@ -262,7 +262,7 @@ TEST_CASE("element-step: one triangle grows above the limit, at the rate of theo
   const double g = 2 * excess * excess - 1;
   const double growth = g + std::sqrt(g * g - 1);  // of the amplitude, per step: mu^2 - (2 - z^2) mu + 1 = 0
   for (const Shape& shape : shapes) {
-    // The stages of a step, with its size in the hands of the check: that of an automatic step may be half a percent
+    // The stages of a step, with its size in the hands of the check: that of an automatic step may be a percent
     // below what it is asked for.
     const double h = 1e-3 * excess * 2 / std::sqrt(by_kernel(shape.corners, steel));
     const Model model = one_triangle(shape.corners, 1e-14 * c_p, 1);

@@ -35,13 +35,13 @@ struct StrainStep {
 /// Winget 1980, eqs. 20-27). With D twice the area and N = D (v,x - u,y) / 4 the tangent of half the turn is N / D; 1 /
 /// D and 1 / (D^2 + N^2) come from a single division, the slowest of all operations here.
 template <class Real>
-StrainStep<Real> strain_step(const Sides<Real>& mid, const Sides<Real>& change) {
+StrainStep<Real> strain_step(const Sides<Real>& mid, const Sides<Real>& half_change) {
   const Real d = mid.twice_area();
   // Displacement gradient times D / 2.
-  const Real u_x = change.x1 * mid.y2 - change.x2 * mid.y1;
-  const Real u_y = change.x2 * mid.x1 - change.x1 * mid.x2;
-  const Real v_x = change.y1 * mid.y2 - change.y2 * mid.y1;
-  const Real v_y = change.y2 * mid.x1 - change.y1 * mid.x2;
+  const Real u_x = half_change.x1 * mid.y2 - half_change.x2 * mid.y1;
+  const Real u_y = half_change.x2 * mid.x1 - half_change.x1 * mid.x2;
+  const Real v_x = half_change.y1 * mid.y2 - half_change.y2 * mid.y1;
+  const Real v_y = half_change.y2 * mid.x1 - half_change.y1 * mid.x2;
   const Real n = Real(0.5) * (v_x - u_y);
   const Real squares = d * d + n * n;
   const Real reciprocal = Real(2) / (d * squares);
