@@ -67,7 +67,7 @@ polygon = [["-21 mm", "-1 mm"], ["0 mm", "-1 mm"], ["0 mm", "21 mm"], ["-21 mm",
 // No byte of these is padding: every byte is the same in two equal states.
 static_assert(sizeof(StepLimit) == sizeof(double) + 2 * sizeof(std::uint32_t));
 static_assert(sizeof(Clock) ==
-              sizeof(CompensatedSum) + 4 * sizeof(std::uint64_t) + 12 * sizeof(double) + 2 * sizeof(StepLimit));
+              sizeof(CompensatedSum) + 5 * sizeof(std::uint64_t) + 15 * sizeof(double) + 2 * sizeof(StepLimit));
 static_assert(sizeof(FrequencyBound) == 2 * sizeof(double) + 2 * sizeof(std::uint32_t));
 static_assert(sizeof(BodySums) == 3 * sizeof(Vec2) + sizeof(double));
 static_assert(sizeof(NodeRecord) == 4 * sizeof(double));

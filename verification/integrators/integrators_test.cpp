@@ -21,12 +21,11 @@ using Complex = std::complex<double>;
 struct Oscillator {
   explicit Oscillator(Integrator kind, double step, double start_speed = speed)
       : model(build_model(with(kind, start_speed))), work(model, 1), state(rest_state(model)) {
-    deform_elements(model, state, work);
-    add_contact_force(model, state, work);
+    find_frequencies(model, state, work);
     choose_time_step(model, state);
     state.clock.next_step = step;
     open_books(model, state);
-    accelerate_nodes(model, state, work);
+    sweep(model, state, work);
     close_books(model, state, work);
   }
   static Case with(Integrator kind, double start_speed) {
@@ -38,11 +37,8 @@ struct Oscillator {
   /// One step; the next one will be `next` (s) long.
   void step(double next) {
     advance_clock(model, state);
-    deform_elements(model, state, work);
-    add_contact_force(model, state, work);
-    choose_time_step(model, state);
     state.clock.next_step = next;
-    accelerate_nodes(model, state, work);
+    sweep(model, state, work);
     close_books(model, state, work);
   }
   void step() { step(state.clock.last_step > 0 ? state.clock.last_step : state.clock.next_step); }

@@ -59,17 +59,21 @@ struct Clock {
   double step_before = 0;          ///< s, h_{n-1}
   double second_step_before = 0;   ///< s, h_{n-2}
   double next_step = 0;            ///< s, h_{n+1}
+  double following_step = 0;       ///< s, h_{n+2} as planned
+  double velocity_ahead = 0;       ///< s, by which the velocity of the last step is later than its middle: 0, but
+  double next_velocity_ahead = 0;  ///< s, for a step that was cut short after its velocity was computed; the next one's
   std::uint64_t next_is_last = 0;  ///< 1 where the next step ends on the end time
-  double planned_step = 0;         ///< s, the last one chosen, before it was fitted to the end time
-  StepLimit limit;                 ///< at t_n; see choose_time_step for how near the exact one
-  double compute_above = 0;        ///< 1/s2: a block whose bound is above computes its frequency in the next step
-  double start_limit = 0;          ///< s, stable limit at t = 0
-  StepLimit tightest;              ///< smallest stable limit so far, and what set it
-  double tightest_time = 0;        ///< s
-  double smallest_step = 0;        ///< s
-  double largest_step = 0;         ///< s
-  std::uint64_t shortened = 0;     ///< steps in which a fixed step was above the stable limit
-  double first_shortened = 0;      ///< s
+  std::uint64_t following_is_last = 0;
+  double planned_step = 0;      ///< s, the last one chosen, before it was fitted to the end time
+  StepLimit limit;              ///< at t_n; see choose_time_step for how near the exact one
+  double compute_above = 0;     ///< 1/s2: a block whose bound is above computes its frequency in the next step
+  double start_limit = 0;       ///< s, stable limit at t = 0
+  StepLimit tightest;           ///< smallest stable limit so far, and what set it
+  double tightest_time = 0;     ///< s
+  double smallest_step = 0;     ///< s
+  double largest_step = 0;      ///< s
+  std::uint64_t shortened = 0;  ///< steps in which a fixed step was above the stable limit
+  double first_shortened = 0;   ///< s
   std::uint64_t first_shortened_element = 0;
   double largest_excess = 0;  ///< largest step over stable limit
 };
@@ -103,6 +107,7 @@ struct State {
   std::vector<Vec2> load_forces;     ///< N, load by load, node by node
   std::vector<Vec2> support_forces;  ///< N, support by support, node by node
   std::vector<Vec2> body_momentum;   ///< kg m/s, one for each body: sum of m times the velocity over the coming step
+  std::vector<double> body_spin;     ///< kg m2/s, the same of m x cross that velocity
   std::vector<BodySums> body_sums;   ///< one for each body
   double largest_penetration = 0;    ///< over the mean length of the boundary edges at the node
   Ledger ledger;
@@ -112,7 +117,8 @@ struct State {
 inline Vec2 velocity(const State& state, Index node) {
   if (!state.velocity.empty()) return state.velocity[node];
   const NodeRecord& r = state.nodes[node];
-  return Vec2{r.vx, r.vy} - (0.5 * state.clock.next_step) * state.acceleration[node];
+  const Clock& clock = state.clock;
+  return Vec2{r.vx, r.vy} - (0.5 * clock.next_step + clock.next_velocity_ahead) * state.acceleration[node];
 }
 
 /// Did this element flow in the last step?
@@ -141,6 +147,7 @@ void for_each_field(S& state, Visitor&& visit) {
   visit("load_forces", state.load_forces);
   visit("support_forces", state.support_forces);
   visit("body_momentum", state.body_momentum);
+  visit("body_spin", state.body_spin);
   visit("body_sums", state.body_sums);
   visit("largest_penetration", state.largest_penetration);
   visit("ledger", state.ledger);

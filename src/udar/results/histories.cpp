@@ -4,7 +4,6 @@
 
 #include <cassert>
 #include <charconv>
-#include <iterator>
 
 #include "udar/base/error.hpp"
 #include "udar/base/text.hpp"
@@ -59,9 +58,16 @@ HistoryWriter::HistoryWriter(const std::filesystem::path& path, const std::vecto
 void HistoryWriter::write_row(std::span<const double> values) {
   assert(values.size() == column_count_);
   constexpr int rows_between_flushes = 16;
-  row_.clear();
-  for (const double value : values) fmt::format_to(std::back_inserter(row_), "{},", value);
-  row_.back() = '\n';
+  constexpr std::size_t longest_number =
+      25;  // of the shortest forms that give the same double again: -2.2250738585072014e-308
+  row_.resize(values.size() * longest_number);
+  char* to = row_.data();
+  for (const double value : values) {
+    to = std::to_chars(to, row_.data() + row_.size(), value).ptr;
+    *to++ = ',';
+  }
+  to[-1] = '\n';
+  row_.resize(static_cast<std::size_t>(to - row_.data()));
   file_.write(row_);
   if (++unflushed_rows_ == rows_between_flushes) {
     file_.flush();

@@ -12,7 +12,7 @@ double dashpot(double fraction, double stiffness, double mass) { return 2 * frac
 
 template <class PreparedShape>
 ContactSums touch_obstacle(const Model& model, State& state, const Obstacle& obstacle, const PreparedShape& shape,
-                           const OuterNodes& nodes, SpringState* springs) {
+                           const OuterNodes& nodes, bool none_touched, SpringState* springs) {
   const double h = state.clock.last_step;
   const Vec2 moved = state.clock.time.value() * obstacle.velocity;
   ContactSums sums;
@@ -20,7 +20,7 @@ ContactSums touch_obstacle(const Model& model, State& state, const Obstacle& obs
     const Index node = model.contact_nodes[c];
     const NodeRecord& record = state.nodes[node];
     const Vec2 place = place_after(record, h) - moved;
-    if (springs[c].touches == 0 && !obstacle.bounds.holds(place)) continue;
+    if (!obstacle.bounds.holds(place) && (none_touched || springs[c].touches == 0)) continue;
 
     const ContactSprings stiffness{obstacle.normal_stiffness[c], obstacle.tangential_stiffness[c], obstacle.friction,
                                    dashpot(model.contact.damping, obstacle.normal_stiffness[c], model.mass[node])};
@@ -37,7 +37,23 @@ ContactSums touch_obstacle(const Model& model, State& state, const Obstacle& obs
   return sums;
 }
 
-void enter_sums(const Model& model, State& state, const Workspace& work) {
+}  // namespace
+
+void add_contact_force(const Model& model, State& state, Workspace& work, std::size_t b) {
+  const std::size_t blocks = model.node_blocks.size();
+  const OuterNodes& nodes = work.outer_nodes[b];
+  for (std::size_t k = nodes.pushed_begin; k < nodes.pushed_end; ++k) state.external[model.pushed_nodes[k]] = {};
+  SpringState* springs = state.contacts.data();
+  for (std::size_t o = 0; o < model.obstacles.size(); ++o, springs += model.contact_nodes.size()) {
+    const Obstacle& obstacle = model.obstacles[o];
+    const bool none_touched = state.obstacles[o].touching == 0;  // then nobody's springs need to be looked at
+    work.contact_sums[o * blocks + b] = std::visit(
+        [&](const auto& shape) { return touch_obstacle(model, state, obstacle, shape, nodes, none_touched, springs); },
+        obstacle.prepared);
+  }
+}
+
+void enter_springs(const Model& model, State& state, const Workspace& work) {
   Ledger& ledger = state.ledger;
   ledger.contact_energy = 0;
   ledger.tangential_energy = 0;
@@ -56,25 +72,6 @@ void enter_sums(const Model& model, State& state, const Workspace& work) {
   }
   ledger.friction_work.add(losses.friction);
   ledger.dropped_energy.add(losses.dropped);
-}
-
-}  // namespace
-
-void add_contact_force(const Model& model, State& state, Workspace& work) {
-  // Each thread looks at its own nodes: fetched from another one's cache they would cost more than all else here.
-  const std::size_t blocks = model.node_blocks.size();
-  work.pool.for_each_block(blocks, [&](std::size_t b) {
-    const OuterNodes& nodes = work.outer_nodes[b];
-    for (std::size_t k = nodes.pushed_begin; k < nodes.pushed_end; ++k) state.external[model.pushed_nodes[k]] = {};
-    SpringState* springs = state.contacts.data();
-    for (std::size_t o = 0; o < model.obstacles.size(); ++o, springs += model.contact_nodes.size()) {
-      const Obstacle& obstacle = model.obstacles[o];
-      work.contact_sums[o * blocks + b] =
-          std::visit([&](const auto& shape) { return touch_obstacle(model, state, obstacle, shape, nodes, springs); },
-                     obstacle.prepared);
-    }
-  });
-  enter_sums(model, state, work);
 }
 
 }  // namespace udar

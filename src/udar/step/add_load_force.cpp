@@ -8,7 +8,7 @@ Vec2 place(const State& state, Index node) { return place_after(state.nodes[node
 
 }  // namespace
 
-void add_load_force(const Model& model, State& state) {
+void set_loads(const Model& model, State& state) {
   const double time = state.clock.time.value();
   std::size_t first = 0;
   for (const Load& load : model.loads) {
@@ -24,8 +24,14 @@ void add_load_force(const Model& model, State& state) {
         forces[2 * k] = forces[2 * k + 1] = half_pressure * inward;
       }
     }
-    for (std::size_t k = 0; k < load.nodes.size(); ++k) state.external[load.nodes[k]] += forces[k];
     first += load.nodes.size();
+  }
+}
+
+void add_load_force(const Model&, State& state, const Workspace& work, std::size_t block) {
+  const OuterNodes& nodes = work.outer_nodes[block];
+  for (std::size_t k = nodes.loaded_begin; k < nodes.loaded_end; ++k) {
+    state.external[work.loaded[k].node] += state.load_forces[work.loaded[k].slot];
   }
 }
 

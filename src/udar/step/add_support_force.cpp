@@ -3,32 +3,37 @@
 
 namespace udar {
 
-void add_support_force(const Model& model, State& state, Workspace& work) {
-  if (model.supports.empty()) return;
+void set_supports(const Model& model, const State& state, Workspace& work) {
+  const double time = state.clock.time.value() + state.clock.next_step;
+  for (std::size_t s = 0; s < model.supports.size(); ++s) {
+    const Support& support = model.supports[s];
+    work.support_motions[s] = {.displacement = {support.move_x.at(time), support.move_y.at(time)},
+                               .turn = support.turns ? turn_by(support.turn.at(time)) : Turn{}};
+  }
+}
+
+void add_support_force(const Model& model, State& state, Workspace& work, std::size_t block, const NodeForces& forces) {
+  const OuterNodes& nodes = work.outer_nodes[block];
   const Clock& clock = state.clock;
-  const double target_time = clock.time.value() + clock.next_step;
   const double rate = damping_rate(model, state);
   const double span = velocity_span(clock);
-  std::size_t first = 0;
-  for (const Support& support : model.supports) {
-    const Vec2 displacement{support.move_x.at(target_time), support.move_y.at(target_time)};
-    const Turn turn = support.turns ? turn_by(support.turn.at(target_time)) : Turn{};
-    for (std::size_t k = 0; k < support.nodes.size(); ++k) {
-      const Index node = support.nodes[k];
-      const NodeRecord& record = state.nodes[node];
-      const Vec2 before{record.vx, record.vy};
-      const Vec2 rest = model.rest[node];
-      const Vec2 target = support.turns ? support.centre + turn * (rest - support.centre) : rest + displacement;
-      const Vec2 wanted = (1 / clock.next_step) * (target - place_after(record, clock.last_step));
-      const Vec2 force = work.forces.internal[node] + state.external[node] + model.mass[node] * model.run.gravity +
-                         damping_force(model, state, node, rate, damping_reference(model, state, support.body));
-      const Vec2 reaction = (model.mass[node] / span) * (wanted - before) - force;
-      Vec2& held = state.support_forces[first + k];
-      held = {support.holds_x ? reaction.x : 0, support.holds_y ? reaction.y : 0};
-      state.external[node] += held;
-      work.held_velocities[first + k] = wanted;
-    }
-    first += support.nodes.size();
+  for (std::size_t k = nodes.held_begin; k < nodes.held_end; ++k) {
+    HeldNode& held = work.held[k];
+    const Support& support = model.supports[held.support];
+    const SupportMotion& motion = work.support_motions[held.support];
+    const NodeRecord& record = state.nodes[held.node];
+    const Vec2 before{record.vx, record.vy};
+    const Vec2 rest = model.rest[held.node];
+    const Vec2 target =
+        support.turns ? support.centre + motion.turn * (rest - support.centre) : rest + motion.displacement;
+    held.velocity = (1 / clock.next_step) * (target - place_after(record, clock.last_step));
+    const Vec2 force = forces.internal[held.node - model.node_blocks[block].begin] + state.external[held.node] +
+                       model.mass[held.node] * model.run.gravity +
+                       damping_force(model, state, held.node, rate, damping_reference(model, state, support.body));
+    const Vec2 reaction = (model.mass[held.node] / span) * (held.velocity - before) - force;
+    Vec2& kept = state.support_forces[held.slot];
+    kept = {support.holds_x ? reaction.x : 0, support.holds_y ? reaction.y : 0};
+    state.external[held.node] += kept;
   }
 }
 

@@ -44,17 +44,18 @@ using ElementKernel = ElementSums (*)(const ElementTask& task, const void* law);
 /// Sums of one node block.
 struct NodeSums {
   double internal_power = 0;  ///< W, sum f . (v- + v+)
-  double kinetic = 0;         ///< J, twice the kinetic energy at t_n
+  double kinetic = 0;         ///< J, sum m v- . v+; for an Adams rule sum m v_n . v_n
   double kinetic_after = 0;   ///< J, sum m v+ . v+; v- and v+ are the mean velocities of the last and the coming step
   double damping_before = 0;  ///< W, sum of damping force . v-
   double damping_after = 0;   ///< W
   double spin_after = 0;      ///< kg m2/s, sum m x cross v+
-  double spin = 0;            ///< kg m2/s, sum m x cross v_n
+  double spin = 0;            ///< kg m2/s, sum m x cross v_n, for an Adams rule
   Vec2 position{};            ///< kg m, sum m x
-  Vec2 force{};               ///< N, sum m a
+  Vec2 force{};               ///< N, all but gravity
   Vec2 carried{};             ///< kg m/s, sum m v+
-  Vec2 momentum{};            ///< kg m/s, sum m v_n
+  Vec2 momentum{};            ///< kg m/s, sum m v_n, for an Adams rule
   Vec2 damping_force{};       ///< N
+  Vec2 held_momentum{};       ///< kg m/s, what holding nodes changed in the momentum of an Adams rule
 };
 
 /// One block of nodes with the arrays it reads and writes, from its first node on.
@@ -71,8 +72,7 @@ struct NodeTask {
   Vec2* last_acceleration;    ///< m/s2
   Vec2* second_acceleration;  ///< m/s2
   double last_step;           ///< s, h_n
-  double next_step;           ///< s, h_{n+1}
-  double span;                ///< s, from the middle of the last step to the middle of the coming one
+  double span;                ///< s, from the time of the last step's velocity to that of the coming one's
   StepWeights done;           ///< Adams rules only
   StepWeights coming;
   bool first;              ///< t = 0: no step was done yet

@@ -67,12 +67,25 @@ double wanted_step(const Model& model, Clock& clock) {
   return model.run.when_unstable == WhenUnstable::shorten ? safe_step : step;
 }
 
-/// A step that jitters costs energy: it shrinks at once but grows slowly.
-double next_step(const Model& model, Clock& clock) {
+/// A step that jitters costs energy, so it shrinks at once but grows slowly. The limit does jitter: bounds rise a
+/// little until they are computed anew. An automatic step lets a limit rise by a percent before it follows, and then
+/// goes a hundredth of the way in each step; a fixed one comes back to what the case says.
+double smoothed(const Model& model, double last, double wanted) {
   constexpr double largest_growth = 1.01;
-  const double wanted = wanted_step(model, clock);
-  clock.planned_step = clock.step == 0 ? wanted : std::min(wanted, largest_growth * clock.planned_step);
-  return clock.planned_step;
+  if (model.run.time_step || wanted <= last) return std::min(wanted, largest_growth * last);
+  constexpr double jitter = 1.01;
+  constexpr double part = 0.01;
+  return std::min(last + part * std::max(0.0, wanted - jitter * last), largest_growth * last);
+}
+
+/// The velocities of the next step were computed before its limit was known. Where it fell below that step at once, the
+/// step is cut short; its velocity is then a little late, which the one after it sets right.
+void cut_next_step(Clock& clock, double wanted) {
+  constexpr double rounding = 1 + 2e-6;  // the last step may be longer by a millionth
+  if (clock.next_step <= rounding * clock.limit.size || clock.next_step <= wanted) return;
+  clock.next_velocity_ahead = 0.5 * (clock.next_step - wanted);
+  clock.next_step = wanted;
+  clock.next_is_last = 0;
 }
 
 /// The run ends on its end time. For the sake of the energy the last hundred automatic steps share out what is left; a
@@ -121,13 +134,22 @@ void choose_time_step(const Model& model, State& state) {
     clock.tightest = clock.limit;
     clock.tightest_time = clock.time.value();
   }
+  const double wanted = wanted_step(model, clock);
+  if (wanted < shortest_step * model.run.end_time) fail_collapsing_step(model, state);
   const double left = model.run.end_time - clock.time.value();
-  const double step = next_step(model, clock);
-  if (step < shortest_step * model.run.end_time) fail_collapsing_step(model, state);
-  clock.smallest_step = clock.step == 0 ? step : std::min(clock.smallest_step, step);
-  clock.largest_step = std::max(clock.largest_step, step);
-  clock.next_step = fitted_to_end(model, step, left);
-  clock.next_is_last = clock.next_step == left ? 1 : 0;
+  if (clock.step == 0) {
+    clock.planned_step = wanted;
+    clock.next_step = fitted_to_end(model, wanted, left);
+    clock.next_is_last = clock.next_step == left ? 1 : 0;
+  } else {
+    cut_next_step(clock, wanted);
+    clock.planned_step = smoothed(model, clock.planned_step, wanted);
+  }
+  clock.smallest_step = clock.step == 0 ? clock.planned_step : std::min(clock.smallest_step, clock.planned_step);
+  clock.largest_step = std::max(clock.largest_step, clock.planned_step);
+  const double left_then = clock.next_is_last != 0 ? 0 : left - clock.next_step;
+  clock.following_step = fitted_to_end(model, clock.planned_step, left_then);
+  clock.following_is_last = clock.following_step == left_then ? 1 : 0;
 }
 
 }  // namespace udar

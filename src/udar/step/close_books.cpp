@@ -44,10 +44,7 @@ class Booking {
   }
 
   [[nodiscard]] Vec2 after(Index node) const { return {state_.nodes[node].vx, state_.nodes[node].vy}; }
-  [[nodiscard]] Vec2 before(Index node) const {
-    if (!state_.velocity_before.empty()) return state_.velocity_before[node];
-    return after(node) - span_ * state_.acceleration[node];
-  }
+  [[nodiscard]] Vec2 before(Index node) const { return velocity_of_last_step(state_, node); }
   /// Work from the middle of the last step to t_n, J.
   [[nodiscard]] double work_until_now(const Account& a) const { return 0.5 * state_.clock.last_step * a.power_before; }
   /// Work from the middle of the last step to the middle of the coming one, J.
@@ -120,11 +117,61 @@ Account sum_forces(const std::vector<Part>& parts, const std::vector<Vec2>& forc
   return account;
 }
 
-NodeSums total_of_nodes(const Model& model, State& state, const Workspace& work) {
+/// Work of the stresses and of the springs, J.
+void enter_elements_and_springs(const Model& model, State& state, const Workspace& work) {
+  double stress_work = 0;
+  double plastic_work = 0;
+  for (const ElementSums& sums : work.element_sums) {
+    stress_work += sums.stress_work;
+    plastic_work += sums.plastic_work;
+  }
+  Ledger& ledger = state.ledger;
+  ledger.stress_work.add(stress_work);
+  ledger.plastic_work.add(plastic_work);
+  enter_springs(model, state, work);
+  // What springs hold at the start was there before.
+  if (state.clock.step == 0) {
+    ledger.start_energy = ledger.start_kinetic + ledger.contact_energy + ledger.tangential_energy;
+  }
+}
+
+/// Where t_n lies between the times of the velocities before and after: a half for equal steps.
+double part_until_now(const Clock& clock) {
+  return (0.5 * clock.last_step - clock.velocity_ahead) / velocity_span(clock);
+}
+
+/// Sums of the bodies at t_n. For central difference those of v_n lie between those of the velocities before and after,
+/// as v_n does.
+void sum_bodies(const Model& model, State& state, const Workspace& work) {
+  const bool half_steps = rule_of(model.run.integrator).weights == nullptr;
+  const double part = part_until_now(state.clock);
+  std::size_t block = 0;
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    BodySums now{.force = model.bodies[b].mass * model.run.gravity};
+    Vec2 carried;
+    double spin_after = 0;
+    for (; block < model.node_blocks.size() && model.node_blocks[block].body == b; ++block) {
+      const NodeSums& sums = work.node_sums[block];
+      now.position += sums.position;
+      now.force += sums.force;
+      now.momentum += sums.momentum;
+      now.spin += sums.spin;
+      carried += sums.carried;
+      spin_after += sums.spin_after;
+    }
+    if (half_steps) {
+      now.momentum = (1 - part) * state.body_momentum[b] + part * carried;
+      now.spin = (1 - part) * state.body_spin[b] + part * spin_after;
+    }
+    state.body_sums[b] = now;
+    state.body_momentum[b] = carried;
+    state.body_spin[b] = spin_after;
+  }
+}
+
+NodeSums total_of_nodes(const Workspace& work) {
   NodeSums total;
-  std::fill(state.body_momentum.begin(), state.body_momentum.end(), Vec2{});
-  for (std::size_t b = 0; b < work.node_sums.size(); ++b) {
-    const NodeSums& sums = work.node_sums[b];
+  for (const NodeSums& sums : work.node_sums) {
     total.internal_power += sums.internal_power;
     total.kinetic += sums.kinetic;
     total.kinetic_after += sums.kinetic_after;
@@ -134,7 +181,7 @@ NodeSums total_of_nodes(const Model& model, State& state, const Workspace& work)
     total.spin_after += sums.spin_after;
     total.carried += sums.carried;
     total.momentum += sums.momentum;
-    state.body_momentum[model.node_blocks[b].body] += sums.carried;
+    total.held_momentum += sums.held_momentum;
   }
   return total;
 }
@@ -154,24 +201,34 @@ void open_books(const Model& model, State& state) {
     ledger.start_kinetic += 0.5 * model.mass[i] * dot(v, v);
     ledger.start_momentum += model.mass[i] * v;
     ledger.momentum_scale += model.mass[i] * length(v);
-    state.body_momentum[static_cast<std::size_t>(&model.body_of_node(i) - model.bodies.data())] += model.mass[i] * v;
+    const auto body = static_cast<std::size_t>(&model.body_of_node(i) - model.bodies.data());
+    state.body_momentum[body] += model.mass[i] * v;
+    state.body_spin[body] += model.mass[i] * cross(Vec2{state.nodes[i].x, state.nodes[i].y}, v);
   }
-  ledger.start_energy = ledger.start_kinetic + ledger.contact_energy + ledger.tangential_energy;
+  ledger.half_step_kinetic = ledger.start_kinetic;
   ledger.carried = ledger.start_momentum;
 }
 
 void close_books(const Model& model, State& state, Workspace& work) {
+  enter_elements_and_springs(model, state, work);
   Ledger& ledger = state.ledger;
   const Booking booking(model, state);
-  const NodeSums nodes = total_of_nodes(model, state, work);
+  const NodeSums nodes = total_of_nodes(work);
+  sum_bodies(model, state, work);
   if (!std::isfinite(nodes.kinetic_after)) fail_not_finite(model, state);
 
-  ledger.kinetic_energy = 0.5 * (nodes.kinetic + work.held_kinetic);
-  ledger.half_step_kinetic = 0.5 * nodes.kinetic_after;
   const bool half_steps = rule_of(model.run.integrator).weights == nullptr;
-  ledger.momentum = half_steps ? nodes.carried : nodes.momentum + work.held_momentum;
-  ledger.book(ForceKind::support).impulse_x.add(work.held_momentum.x);
-  ledger.book(ForceKind::support).impulse_y.add(work.held_momentum.y);
+  ledger.kinetic_energy = 0.5 * nodes.kinetic;
+  if (half_steps) {
+    // v- . (v- + h_n a), as if the next step were as long as the last: with v+ after a step of another length the
+    // energy at t_n would be wrong to first order.
+    const double weight = 2 * part_until_now(state.clock);
+    ledger.kinetic_energy = (1 - weight) * ledger.half_step_kinetic + weight * ledger.kinetic_energy;
+  }
+  ledger.half_step_kinetic = 0.5 * nodes.kinetic_after;
+  ledger.momentum = half_steps ? nodes.carried : nodes.momentum;
+  ledger.book(ForceKind::support).impulse_x.add(nodes.held_momentum.x);
+  ledger.book(ForceKind::support).impulse_y.add(nodes.held_momentum.y);
   ledger.spin = nodes.spin_after;
 
   const Vec2 weight = total_mass(model) * model.run.gravity;

@@ -1,7 +1,6 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "udar/step/failure.hpp"
 #include "udar/step/stages.hpp"
 
 namespace udar {
@@ -16,44 +15,33 @@ BlockKernels widest_block_kernels() {
   return baseline::block_kernels();
 }
 
-void deform_elements(const Model& model, State& state, Workspace& work) {
-  work.forces.for_each_block(work.pool, [&](std::size_t b) {
-    const ElementBlock& block = model.element_blocks[b];
-    const Body& body = model.bodies[block.body];
-    const ElementTask task{.nodes = state.nodes.data(),
-                           .quads = &model.quads[block.quads],
-                           .count = block.quad_count(),
-                           .step = state.clock.last_step,
-                           .half_thickness = 0.5 * body.thickness,
-                           .area_density = &model.area_density[block.begin],
-                           .contact_spring = &model.contact_spring[block.begin],
-                           .xx = &state.stress_xx[block.begin],
-                           .yy = &state.stress_yy[block.begin],
-                           .xy = &state.stress_xy[block.begin],
-                           .zz = &state.stress_zz[block.begin],
-                           .plastic_strain = &state.plastic_strain[block.begin],
-                           .flowing = &state.flowing[block.begin / lanes],
-                           .forces = work.forces.of_block(b),
-                           .first_element = block.begin,
-                           .compute_above = state.clock.compute_above,
-                           .frequency = &state.frequency[b]};
-    const void* law = std::visit([](const auto& l) { return static_cast<const void*>(&l); }, body.law);
-    const ElementKernel* kernels = block.paired ? work.kernels.deform_paired : work.kernels.deform;
-    work.element_sums[b] = kernels[body.law.index()](task, law);
-  });
+void deform_elements(const Model& model, State& state, Workspace& work, std::size_t b) {
+  const ElementBlock& block = model.element_blocks[b];
+  const Body& body = model.bodies[block.body];
+  const ElementTask task{.nodes = state.nodes.data(),
+                         .quads = &model.quads[block.quads],
+                         .count = block.quad_count(),
+                         .step = state.clock.last_step,
+                         .half_thickness = 0.5 * body.thickness,
+                         .area_density = &model.area_density[block.begin],
+                         .contact_spring = &model.contact_spring[block.begin],
+                         .xx = &state.stress_xx[block.begin],
+                         .yy = &state.stress_yy[block.begin],
+                         .xy = &state.stress_xy[block.begin],
+                         .zz = &state.stress_zz[block.begin],
+                         .plastic_strain = &state.plastic_strain[block.begin],
+                         .flowing = &state.flowing[block.begin / lanes],
+                         .forces = work.forces.of_block(b),
+                         .first_element = block.begin,
+                         .compute_above = state.clock.compute_above,
+                         .frequency = &state.frequency[b]};
+  const void* law = std::visit([](const auto& l) { return static_cast<const void*>(&l); }, body.law);
+  const ElementKernel* kernels = block.paired ? work.kernels.deform_paired : work.kernels.deform;
+  work.element_sums[b] = kernels[body.law.index()](task, law);
+}
 
-  Ledger& ledger = state.ledger;
-  double stress_work = 0;
-  double plastic_work = 0;
-  bool inverted = false;
-  for (const ElementSums& sums : work.element_sums) {
-    stress_work += sums.stress_work;
-    plastic_work += sums.plastic_work;
-    inverted = inverted || !(sums.smallest_area > 0);
-  }
-  ledger.stress_work.add(stress_work);
-  ledger.plastic_work.add(plastic_work);
-  if (inverted) fail_inverted(model, state);
+void find_frequencies(const Model& model, State& state, Workspace& work) {
+  work.pool.for_each_block(model.element_blocks.size(), [&](std::size_t b) { deform_elements(model, state, work, b); });
 }
 
 }  // namespace udar

@@ -11,8 +11,7 @@
 namespace udar {
 namespace {
 
-// Nodes have not moved yet when an element fails in a step.
-Vec2 place(const State& state, Index node) { return place_after(state.nodes[node], state.clock.last_step); }
+Vec2 place(const State& state, Index node) { return place_after(state.nodes[node], 0); }
 
 std::string when(const Clock& clock) {
   return fmt::format("at t = {:.6g} s (step {}, h = {:.4g} s)", clock.time.value(), clock.step, clock.last_step);
@@ -28,25 +27,29 @@ std::string element_text(const Model& model, const State& state, Index element) 
 }
 
 double smaller_area(const Model& model, const State& state, Index element) {
-  const double h = state.clock.last_step;
+  const double half_step = 0.5 * state.clock.last_step;
   const auto& corners = model.corners[element];
-  const auto middle = [&](Index i) { return place_after(state.nodes[i], 0.5 * h); };
+  const auto middle = [&](Index i) { return place(state, i) - half_step * velocity_of_last_step(state, i); };
   const double at_end = twice_area(place(state, corners[0]), place(state, corners[1]), place(state, corners[2]));
   return std::min(at_end, twice_area(middle(corners[0]), middle(corners[1]), middle(corners[2])));
 }
 
 }  // namespace
 
-void fail_inverted(const Model& model, const State& state) {
-  Index worst = 0;
+void refuse_inverted(const Model& model, const State& state, const Workspace& work) {
+  const auto flat = [](const ElementSums& sums) { return !(sums.smallest_area > 0); };
+  const auto& sums = work.element_sums;
+  const auto found = std::find_if(sums.begin(), sums.end(), flat);
+  if (found == sums.end()) return;
+
+  const ElementBlock& block = model.element_blocks[static_cast<std::size_t>(found - sums.begin())];
+  Index worst = block.begin;
   double smallest = std::numeric_limits<double>::infinity();
-  for (const Body& body : model.bodies) {
-    for (Index e = body.element_begin; e < body.element_end; ++e) {
-      const double area = smaller_area(model, state, e);
-      if (area < smallest) {
-        smallest = area;
-        worst = e;
-      }
+  for (Index e = block.begin; e < std::min(block.end, model.bodies[block.body].element_end); ++e) {
+    const double area = smaller_area(model, state, e);
+    if (area < smallest) {
+      smallest = area;
+      worst = e;
     }
   }
   throw NumericalError(fmt::format(

@@ -2,14 +2,15 @@
 
 #include "udar/model/model.hpp"
 #include "udar/model/state.hpp"
+#include "udar/step/workspace.hpp"
 
 namespace udar {
 
 /// Numerical failures: each finds the culprit and throws NumericalError with body, element or node, place, time, step
 /// size, likely cause and cure.
 
-/// An element has no area any more.
-[[noreturn]] void fail_inverted(const Model& model, const State& state);
+/// In a step an element had no area any more, in its middle or at its end.
+void refuse_inverted(const Model& model, const State& state, const Workspace& work);
 /// Something is not a number any more.
 [[noreturn]] void fail_not_finite(const Model& model, const State& state);
 /// The stable limit fell below a fixed step and the case says to stop then.

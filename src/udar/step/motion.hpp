@@ -28,7 +28,17 @@ inline Vec2 damping_reference(const Model& model, const State& state, Index body
   return (1 / model.bodies[body].mass) * state.body_momentum[body];
 }
 
-/// Time over which the acceleration a_n changes the velocity of a step into that of the next, s.
-inline double velocity_span(const Clock& clock) { return 0.5 * (clock.last_step + clock.next_step); }
+/// Time over which the acceleration a_n changes the velocity of a step into that of the next, s: from the middle of the
+/// one to the middle of the other, as they were planned.
+inline double velocity_span(const Clock& clock) {
+  return 0.5 * (clock.last_step + clock.next_step) - clock.velocity_ahead + clock.next_velocity_ahead;
+}
+
+/// Mean velocity of the last step, m/s; what held nodes are given included.
+inline Vec2 velocity_of_last_step(const State& state, Index node) {
+  if (!state.velocity_before.empty()) return state.velocity_before[node];
+  const NodeRecord& r = state.nodes[node];
+  return Vec2{r.vx, r.vy} - velocity_span(state.clock) * state.acceleration[node];
+}
 
 }  // namespace udar

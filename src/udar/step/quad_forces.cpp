@@ -45,7 +45,7 @@ std::vector<Reach> reaches(const Model& model) {
 }  // namespace
 
 QuadForces::QuadForces(const Model& model, const Pool& pool)
-    : internal(model.rest.size()), element_blocks_(model.element_blocks.size()), node_blocks_(model.node_blocks) {
+    : element_blocks_(model.element_blocks.size()), node_blocks_(model.node_blocks) {
   plan(model, pool);
   number(model);
 }
@@ -56,8 +56,7 @@ void QuadForces::plan(const Model& model, const Pool& pool) {
   std::vector<std::size_t> needed_until(element_blocks_);  // one beyond the element block after which it is summed
   for (std::size_t n = 0; n < reach.size(); ++n) {
     const auto [first, last] = reach[n];
-    if (first > last) continue;
-    const bool early = pool.run_of(element_blocks_, first) == pool.run_of(element_blocks_, last);
+    const bool early = first <= last && pool.run_of(element_blocks_, first) == pool.run_of(element_blocks_, last);
     if (early) {
       early_.push_back({last, n});
     } else {
@@ -103,7 +102,7 @@ std::size_t QuadForces::first_done_after(std::size_t block) const {
   return static_cast<std::size_t>(found - early_.begin());
 }
 
-void QuadForces::sum(std::size_t node_block) {
+NodeForces QuadForces::sum(std::size_t node_block) const {
   using Two = double __attribute__((vector_size(16)));
   const auto force = [forces = forces_.data()](std::uint32_t slot) {
     Two f;
@@ -111,6 +110,7 @@ void QuadForces::sum(std::size_t node_block) {
     return f;
   };
   const NodeBlock& block = node_blocks_[node_block];
+  NodeForces sums;
   const std::uint32_t* slot = slots_.data() + offsets_[block.begin];
   for (Index i = block.begin; i < block.end; ++i) {
     const std::uint32_t* const end = slots_.data() + offsets_[i + 1];
@@ -120,8 +120,9 @@ void QuadForces::sum(std::size_t node_block) {
       slot = end;
     }
     for (; slot != end; ++slot) total += force(*slot);
-    __builtin_memcpy(&internal[i].x, &total, sizeof total);
+    __builtin_memcpy(&sums.internal[i - block.begin].x, &total, sizeof total);
   }
+  return sums;
 }
 
 }  // namespace udar

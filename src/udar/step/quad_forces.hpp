@@ -9,6 +9,11 @@
 
 namespace udar {
 
+/// Sums of the elements' forces on the nodes of one block.
+struct NodeForces {
+  alignas(64) Vec2 internal[nodes_per_block];  ///< N
+};
+
 /// Forces of elements on their corners, and their sums at the nodes.
 ///
 /// A block of elements writes the forces of its quads as whole vectors: for each eight quads first all on their corners
@@ -16,9 +21,10 @@ namespace udar {
 /// and y leaves them. A node sums those of its corners in the order of the quads: no two threads write one place, and
 /// the order does not depend on who does it or when.
 ///
-/// A block of nodes is summed as soon as the last of its elements is done, while their forces are still in the cache;
-/// what they were written to then serves other blocks. So forces never travel to main memory, which bounds the speed of
-/// large meshes. Nodes between the elements of two runs have to wait until both are done.
+/// A block of nodes is finished as soon as the last of its elements is done, while their forces are still in the cache,
+/// and so are the nodes; what the forces were written to then serves other blocks. So forces never travel to main
+/// memory, which bounds the speed of large meshes, and nodes do so once in a step. Nodes between the elements of two
+/// runs have to wait until both are done.
 class QuadForces {
  public:
   QuadForces(const Model& model, const Pool& pool);
@@ -26,26 +32,27 @@ class QuadForces {
   /// Where an element block writes its forces, N: four for each quad.
   [[nodiscard]] Vec2* of_block(std::size_t block) { return forces_.data() + forces_per_block * place_[block]; }
 
-  /// Calls deform(block) for every element block and sums the forces at all nodes.
-  template <class Deform>
-  void for_each_block(Pool& pool, Deform&& deform) {
+  /// Sums at the nodes of a block, each in the order of the quads.
+  [[nodiscard]] NodeForces sum(std::size_t node_block) const;
+
+  /// Calls deform(block) for every element block, and finish(block) for every block of nodes whose elements are done.
+  template <class Deform, class Finish>
+  void for_each_block(Pool& pool, Deform&& deform, Finish&& finish) {
     pool.for_each_run(element_blocks_, [&](std::size_t begin, std::size_t end) {
       std::size_t next = first_done_after(begin);
       for (std::size_t block = begin; block < end; ++block) {
         deform(block);
-        for (; next < early_.size() && early_[next].after == block; ++next) sum(early_[next].nodes);
+        for (; next < early_.size() && early_[next].after == block; ++next) finish(early_[next].nodes);
       }
     });
     // With few threads these are few: to wake the others would take longer.
     constexpr std::size_t few = 16;
     if (late_.size() <= few) {
-      for (const std::size_t nodes : late_) sum(nodes);
+      for (const std::size_t nodes : late_) finish(nodes);
     } else {
-      pool.for_each_block(late_.size(), [&](std::size_t k) { sum(late_[k]); });
+      pool.for_each_block(late_.size(), [&](std::size_t k) { finish(late_[k]); });
     }
   }
-
-  Array<Vec2> internal;  ///< N, sum of the corner forces at each node
 
  private:
   static constexpr std::size_t forces_per_block = 4 * std::size_t{elements_per_block};
@@ -58,7 +65,6 @@ class QuadForces {
   [[nodiscard]] std::size_t first_done_after(std::size_t block) const;
   void plan(const Model& model, const Pool& pool);
   void number(const Model& model);
-  void sum(std::size_t node_block);
 
   std::size_t element_blocks_;
   const std::vector<NodeBlock>& node_blocks_;

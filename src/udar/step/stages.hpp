@@ -9,15 +9,24 @@ namespace udar {
 /// what each reads and writes.
 
 void advance_clock(const Model& model, State& state);
-void deform_elements(const Model& model, State& state, Workspace& work);
-void add_contact_force(const Model& model, State& state, Workspace& work);
-void add_load_force(const Model& model, State& state);
+void set_loads(const Model& model, State& state);
+void set_supports(const Model& model, const State& state, Workspace& work);
+void sweep(const Model& model, State& state, Workspace& work);
 void choose_time_step(const Model& model, State& state);
-void add_support_force(const Model& model, State& state, Workspace& work);
-void accelerate_nodes(const Model& model, State& state, Workspace& work);
 void close_books(const Model& model, State& state, Workspace& work);
 
+// Parts of the sweep, for one block of elements or of nodes.
+void deform_elements(const Model& model, State& state, Workspace& work, std::size_t block);
+void add_contact_force(const Model& model, State& state, Workspace& work, std::size_t block);
+void add_load_force(const Model& model, State& state, const Workspace& work, std::size_t block);
+void add_support_force(const Model& model, State& state, Workspace& work, std::size_t block, const NodeForces& forces);
+void accelerate_nodes(const Model& model, State& state, Workspace& work, std::size_t block, const NodeForces& forces);
+
+/// Part of close_books: what the springs hold and have lost, and how deep they are pressed.
+void enter_springs(const Model& model, State& state, const Workspace& work);
+
 // Only at the start.
+void find_frequencies(const Model& model, State& state, Workspace& work);
 State rest_state(const Model& model);
 void refuse_buried_nodes(const Model& model, const State& state);
 void open_books(const Model& model, State& state);

@@ -36,6 +36,7 @@ State rest_state(const Model& model) {
   for (const Support& support : model.supports) held += support.nodes.size();
   state.support_forces.resize(held);
   state.body_momentum.resize(model.bodies.size());
+  state.body_spin.resize(model.bodies.size());
   state.body_sums.resize(model.bodies.size());
   return state;
 }

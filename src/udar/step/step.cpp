@@ -1,28 +1,44 @@
 #include "udar/step/step.hpp"
 
+#include "udar/step/failure.hpp"
 #include "udar/step/stages.hpp"
 
 namespace udar {
 
+/// From the stresses at x_n to the velocity to x_{n+2}, in one pass over memory: a block of nodes follows as soon as
+/// the last of its elements is done, while all that they share is at hand.
+void sweep(const Model& model, State& state, Workspace& work) {
+  work.forces.for_each_block(
+      work.pool,
+      [&](std::size_t elements) {
+        deform_elements(model, state, work, elements);  // strain and turn, stress, corner forces at x_{n+1}
+      },
+      [&](std::size_t nodes) {
+        NodeForces forces = work.forces.sum(nodes);            // of the elements on the nodes
+        add_contact_force(model, state, work, nodes);          // springs and friction at x_{n+1}
+        add_load_force(model, state, work, nodes);             // point forces, tractions, pressures
+        add_support_force(model, state, work, nodes, forces);  // what it takes to move the held nodes as given
+        accelerate_nodes(model, state, work, nodes, forces);   // x_{n+1}, a_{n+1} and the velocity to x_{n+2}
+      });
+  refuse_inverted(model, state, work);
+}
+
 void step(const Model& model, State& state, Workspace& work) {
-  advance_clock(model, state);            // t_{n+1}, with the step chosen at the end of the last one
-  deform_elements(model, state, work);    // strain and turn, stress, corner forces on the way to x_{n+1}
-  add_contact_force(model, state, work);  // springs and friction at x_{n+1}
-  add_load_force(model, state);           // point forces, tractions, pressures
-  choose_time_step(model, state);         // h_{n+2}, and who limits it
-  add_support_force(model, state, work);  // what it takes to move the held nodes as given
-  accelerate_nodes(model, state, work);   // x_{n+1}, a_{n+1} and the velocity to x_{n+2}
-  close_books(model, state, work);        // energy, momentum, spin; is everything still finite?
+  advance_clock(model, state);       // t_{n+1}, with the step that is already under way
+  set_loads(model, state);           // forces at t_{n+1}
+  set_supports(model, state, work);  // where held nodes have to be at t_{n+2}
+  sweep(model, state, work);         // all bodies from t_n to t_{n+1}
+  choose_time_step(model, state);    // is h_{n+2} still safe? h_{n+3}, and who limits it
+  close_books(model, state, work);   // energy, momentum, spin; is everything still finite?
 }
 
 void prepare(const Model& model, State& state, Workspace& work) {
-  deform_elements(model, state, work);
-  add_contact_force(model, state, work);
-  add_load_force(model, state);
+  find_frequencies(model, state, work);
   choose_time_step(model, state);
   open_books(model, state);
-  add_support_force(model, state, work);
-  accelerate_nodes(model, state, work);
+  set_loads(model, state);
+  set_supports(model, state, work);
+  sweep(model, state, work);
   close_books(model, state, work);
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "udar/model/model.hpp"
@@ -19,35 +18,44 @@ struct ContactSums {
   SpringLosses losses;
 };
 
-/// The nodes of a block that something may push: positions in Model::contact_nodes and Model::pushed_nodes.
+/// A node that a load pushes.
+struct LoadedNode {
+  Index node;
+  std::size_t slot;  ///< in State::load_forces
+};
+
+/// A node that a support holds.
+struct HeldNode {
+  Index node;
+  std::size_t support;
+  std::size_t slot;  ///< in State::support_forces
+  Vec2 velocity{};   ///< m/s, that brings it to where it has to be
+};
+
+/// Where a support has to be at the end of the coming step.
+struct SupportMotion {
+  Vec2 displacement{};  ///< m
+  Turn turn{};
+};
+
+/// The nodes of a block that something may push: positions in Model::contact_nodes and Model::pushed_nodes, and in the
+/// Workspace's lists.
 struct OuterNodes {
   std::size_t contact_begin = 0;
   std::size_t contact_end = 0;
   std::size_t pushed_begin = 0;
   std::size_t pushed_end = 0;
+  std::size_t loaded_begin = 0;
+  std::size_t loaded_end = 0;
+  std::size_t held_begin = 0;
+  std::size_t held_end = 0;
 
   [[nodiscard]] bool any_pushed() const { return pushed_begin < pushed_end; }
 };
 
 /// Room for what a step computes and forgets, and the threads that compute it. Nothing here is State.
 struct Workspace {
-  Workspace(const Model& model, int threads)
-      : pool(threads),
-        forces(model, pool),
-        element_sums(model.element_blocks.size()),
-        node_sums(model.node_blocks.size()) {
-    std::size_t held = 0;
-    for (const Support& support : model.supports) held += support.nodes.size();
-    held_velocities.resize(held);
-    const auto position = [](const std::vector<Index>& nodes, Index node) {
-      return static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
-    };
-    for (const NodeBlock& block : model.node_blocks) {
-      outer_nodes.push_back({position(model.contact_nodes, block.begin), position(model.contact_nodes, block.end),
-                             position(model.pushed_nodes, block.begin), position(model.pushed_nodes, block.end)});
-    }
-    contact_sums.resize(model.obstacles.size() * model.node_blocks.size());
-  }
+  Workspace(const Model& model, int threads);
 
   Pool pool;
   BlockKernels kernels = widest_block_kernels();
@@ -56,9 +64,9 @@ struct Workspace {
   std::vector<ContactSums> contact_sums;  ///< obstacle by obstacle, one for each block of nodes
   std::vector<ElementSums> element_sums;
   std::vector<NodeSums> node_sums;
-  Vec2 held_momentum{};               ///< kg m/s, what holding nodes changed in the momentum of an Adams rule
-  double held_kinetic = 0;            ///< J, and in twice its kinetic energy
-  std::vector<Vec2> held_velocities;  ///< m/s, support by support, node by node: what brings them to their places
+  std::vector<LoadedNode> loaded;  ///< in the order of nodes
+  std::vector<HeldNode> held;      ///< in the order of nodes
+  std::vector<SupportMotion> support_motions;
 };
 
 }  // namespace udar

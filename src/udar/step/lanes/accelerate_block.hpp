@@ -65,33 +65,71 @@ struct Access<Pack> {
   }
 };
 
-/// Sum over the nodes of a block: lane by lane, then over the lanes. The order is fixed, whatever computes it.
-class LaneSum {
- public:
-  template <class Real>
-  void add(Real value, Index node) {
-    double* lane = sum_ + node % lanes;
-    Access<Real>::store(Access<Real>::load(lane) + value, lane);
-  }
-  template <class Real>
-  friend void add(LaneSum& x, LaneSum& y, Vector<Real> v, Index node) {
-    x.add(v.x, node);
-    y.add(v.y, node);
-  }
-  [[nodiscard]] double total() const {
-    double total = 0;
-    for (const double lane : sum_) total += lane;
-    return total;
-  }
+/// Sum over the nodes of a block: lane by lane, then over the lanes. The order is fixed, whatever computes it. Packs
+/// are added in registers; what is left is added to the lanes one by one.
+template <class Real>
+struct LaneSum;
 
- private:
-  double sum_[lanes] = {};
+template <>
+struct LaneSum<Pack> {
+  Pack pack[lanes / Pack::lanes];
+
+  LaneSum() {
+    for (Pack& p : pack) p = Pack(0);
+  }
+  void add(Pack value, Index lane) { pack[lane / Pack::lanes] = pack[lane / Pack::lanes] + value; }
 };
 
+template <>
+struct LaneSum<double> {
+  double lane[lanes];
+
+  explicit LaneSum(const LaneSum<Pack>& packs) {
+    for (Index p = 0; p < lanes / Pack::lanes; ++p) packs.pack[p].store(lane + p * Pack::lanes);
+  }
+  void add(double value, Index at) { lane[at] += value; }
+  [[nodiscard]] double total() const {
+    double total = 0;
+    for (const double value : lane) total += value;
+    return total;
+  }
+};
+
+template <class Real>
+struct LaneVector {
+  LaneSum<Real> x, y;
+
+  LaneVector() = default;
+  explicit LaneVector(const LaneVector<Pack>& packs) : x(packs.x), y(packs.y) {}
+  void add(Vector<Real> v, Index lane) {
+    x.add(v.x, lane);
+    y.add(v.y, lane);
+  }
+  [[nodiscard]] Vec2 total() const { return {x.total(), y.total()}; }
+};
+
+/// As NodeSums.
+template <class Real>
 struct NodeLaneSums {
-  LaneSum internal_power, kinetic, kinetic_after, spin_after, carried_x, carried_y;
-  LaneSum momentum_x, momentum_y, spin, position_x, position_y, force_x, force_y;
-  LaneSum damping_before, damping_after, damping_x, damping_y;
+  LaneSum<Real> internal_power, kinetic, kinetic_after, spin, spin_after;
+  LaneVector<Real> position, force, carried, momentum;
+  LaneSum<Real> damping_before, damping_after;
+  LaneVector<Real> damping;
+
+  NodeLaneSums() = default;
+  explicit NodeLaneSums(const NodeLaneSums<Pack>& p)
+      : internal_power(p.internal_power),
+        kinetic(p.kinetic),
+        kinetic_after(p.kinetic_after),
+        spin(p.spin),
+        spin_after(p.spin_after),
+        position(p.position),
+        force(p.force),
+        carried(p.carried),
+        momentum(p.momentum),
+        damping_before(p.damping_before),
+        damping_after(p.damping_after),
+        damping(p.damping) {}
 };
 
 /// What a loop over nodes keeps in registers.
@@ -113,19 +151,10 @@ struct CentralDifference {
     return before + k.span * acceleration;
   }
 
-  /// v_{n-1/2} . v_{n+1/2} as if the next step were as long as the last: with the velocity after a step of another
-  /// length the energy at t_n would be wrong to first order.
   template <class Real>
-  void book(const Constants<Real>& k, NodeLaneSums& sums, Index i, Real mass, const Node<Real>& node,
-            Vector<Real> before, Vector<Real> acceleration) const {
-    sums.kinetic.add(mass * dot(before, before + k.last_step * acceleration), i);
-    sums.spin.add(mass * cross(node.place, acceleration), i);
-  }
-  /// v_n = v_{n+1/2} - a_n h_{n+1} / 2.
-  void finish(NodeSums& sums) const {
-    const double half = 0.5 * task.next_step;
-    sums.momentum = {sums.carried.x - half * sums.force.x, sums.carried.y - half * sums.force.y};
-    sums.spin = sums.spin_after - half * sums.spin;
+  void book(NodeLaneSums<Real>& sums, Index, Index lane, Real, const Node<Real>&, Vector<Real> before,
+            Vector<Real> carried) const {
+    sums.kinetic.add(dot(carried, before), lane);
   }
 };
 
@@ -154,20 +183,20 @@ struct Multistep {
   }
 
   template <class Real>
-  void book(const Constants<Real>&, NodeLaneSums& sums, Index i, Real mass, const Node<Real>& node, Vector<Real>,
+  void book(NodeLaneSums<Real>& sums, Index i, Index lane, Real mass, const Node<Real>& node, Vector<Real>,
             Vector<Real>) const {
     const Vector<Real> v = Access<Real>::load(task.velocity + i);
     const Vector<Real> momentum = mass * v;
-    sums.kinetic.add(dot(momentum, v), i);
-    add(sums.momentum_x, sums.momentum_y, momentum, i);
-    sums.spin.add(cross(node.place, momentum), i);
+    sums.kinetic.add(dot(momentum, v), lane);
+    sums.momentum.add(momentum, lane);
+    sums.spin.add(cross(node.place, momentum), lane);
   }
-  static void finish(NodeSums&) {}
 };
 
-/// One pack of nodes, or a single one.
+/// One pack of nodes, or a single one, whose (first) lane of the sums is `lane`.
 template <class Real, class Rule>
-void accelerate(const NodeTask& task, const Constants<Real>& k, const Rule& rule, Index i, NodeLaneSums& sums) {
+void accelerate(const NodeTask& task, const Constants<Real>& k, const Rule& rule, Index i, Index lane,
+                NodeLaneSums<Real>& sums) {
   using On = Access<Real>;
   Node<Real> node = On::load(task.nodes + i);
   const Vector<Real> before = node.velocity;
@@ -188,45 +217,46 @@ void accelerate(const NodeTask& task, const Constants<Real>& k, const Rule& rule
   On::store(node, task.nodes + i);
   On::store(acceleration, task.acceleration + i);
 
-  sums.internal_power.add(dot(internal, before + after), i);
-  rule.book(k, sums, i, mass, node, before, acceleration);
+  sums.internal_power.add(dot(internal, before + after), lane);
   const Vector<Real> carried = mass * after;
-  sums.kinetic_after.add(dot(carried, after), i);
-  add(sums.carried_x, sums.carried_y, carried, i);
-  sums.spin_after.add(cross(node.place, carried), i);
-  add(sums.position_x, sums.position_y, mass * node.place, i);
-  add(sums.force_x, sums.force_y, mass * acceleration, i);
+  rule.book(sums, i, lane, mass, node, before, carried);
+  sums.kinetic_after.add(dot(carried, after), lane);
+  sums.carried.add(carried, lane);
+  sums.spin_after.add(cross(node.place, carried), lane);
+  sums.position.add(mass * node.place, lane);
+  sums.force.add(force, lane);
   if (task.damping > 0) {
-    add(sums.damping_x, sums.damping_y, damping, i);
-    sums.damping_before.add(dot(damping, before), i);
-    sums.damping_after.add(dot(damping, after), i);
+    sums.damping.add(damping, lane);
+    sums.damping_before.add(dot(damping, before), lane);
+    sums.damping_after.add(dot(damping, after), lane);
   }
 }
 
 template <class Rule>
 [[gnu::flatten]] NodeSums accelerate_block(const NodeTask& task) {
   const Rule rule{task};
-  NodeLaneSums sums;
   const Constants<Pack> in_packs(task);
   const Constants<double> alone(task);
+  NodeLaneSums<Pack> packs;
   Index i = 0;
-  for (; i + Pack::lanes <= task.count; i += Pack::lanes) accelerate(task, in_packs, rule, i, sums);
-  for (; i < task.count; ++i) accelerate(task, alone, rule, i, sums);
+  for (; i + lanes <= task.count; i += lanes) {
+    for (Index lane = 0; lane < lanes; lane += Pack::lanes) accelerate(task, in_packs, rule, i + lane, lane, packs);
+  }
+  NodeLaneSums<double> sums(packs);
+  for (Index lane = 0; i < task.count; ++i, ++lane) accelerate(task, alone, rule, i, lane, sums);
 
-  NodeSums total{.internal_power = sums.internal_power.total(),
-                 .kinetic = sums.kinetic.total(),
-                 .kinetic_after = sums.kinetic_after.total(),
-                 .damping_before = sums.damping_before.total(),
-                 .damping_after = sums.damping_after.total(),
-                 .spin_after = sums.spin_after.total(),
-                 .spin = sums.spin.total(),
-                 .position = {sums.position_x.total(), sums.position_y.total()},
-                 .force = {sums.force_x.total(), sums.force_y.total()},
-                 .carried = {sums.carried_x.total(), sums.carried_y.total()},
-                 .momentum = {sums.momentum_x.total(), sums.momentum_y.total()},
-                 .damping_force = {sums.damping_x.total(), sums.damping_y.total()}};
-  rule.finish(total);
-  return total;
+  return {.internal_power = sums.internal_power.total(),
+          .kinetic = sums.kinetic.total(),
+          .kinetic_after = sums.kinetic_after.total(),
+          .damping_before = sums.damping_before.total(),
+          .damping_after = sums.damping_after.total(),
+          .spin_after = sums.spin_after.total(),
+          .spin = sums.spin.total(),
+          .position = sums.position.total(),
+          .force = sums.force.total(),
+          .carried = sums.carried.total(),
+          .momentum = sums.momentum.total(),
+          .damping_force = sums.damping.total()};
 }
 
 }  // namespace
