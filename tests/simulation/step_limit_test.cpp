@@ -58,6 +58,7 @@ struct Watch {
   int too_large = 0;          ///< the limit was above the exact one
   int too_small = 0;          ///< or further below than one percent
   int too_long = 0;           ///< the step was longer than the exact limit
+  int cut = 0;                ///< the step was cut short after its velocity was computed
   double smallest_ratio = 1;  ///< of limit and exact limit
   double computed = 0;        ///< blocks that computed their frequency
   double blocks = 0;
@@ -70,6 +71,7 @@ struct Watch {
     too_small += clock.limit.size < exact / slack * (1 - rounding) ? 1 : 0;
     // The last step may be longer by a millionth, to end on the end time.
     const double longest = clock.next_is_last != 0 ? 1 + 2e-6 : 1 + rounding;
+    cut += clock.next_velocity_ahead > 0 ? 1 : 0;
     too_long += clock.next_step > longest * exact ? 1 : 0;
     smallest_ratio = std::min(smallest_ratio, clock.limit.size / exact);
     for (std::size_t b = 0; b < state.frequency.size(); ++b) {
@@ -215,6 +217,7 @@ TEST_CASE("a soft body far from limiting the step is crushed, or turned over, in
   CHECK(crushed < 0.15);
   CHECK(watch.too_large == 0);
   CHECK(watch.too_long == 0);
+  CHECK(watch.cut > 0);
   // In the middle of the step all areas are still above 0.
   CHECK_THROWS_AS(watched(beside_stiffer(50, -0.5), crushed), NumericalError);
   CHECK(crushed > 0);  // in that very step, not in the next one

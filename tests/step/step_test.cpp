@@ -114,6 +114,41 @@ TEST_CASE("the run ends on the end time, with the last step cut") {
   CHECK(state.clock.step > 10);
 }
 
+TEST_CASE("a step cut short after its velocity was computed: the one after it sets the velocity right") {
+  Model model = build({.end_time = 1});
+  model.loads.clear();
+  model.obstacles.clear();
+  model.run.gravity = {0, -1e5};
+  model.run.time_step = 1e-7;
+  Workspace work(model, 1);
+  State state = start(model, work);
+  const double g = model.run.gravity.y;
+  const double mass = model.bodies[0].mass;
+  Clock& clock = state.clock;
+  double ahead = 0;  // m, of the place, by the steps that were cut
+  double coming = 0;
+  for (int n = 0; n < 40; ++n) {
+    step(model, state, work);
+    ahead += coming;
+    const double t = clock.time.value();
+    const double speed = model.start_velocity[0].y + g * t;
+    const double place = model.rest[0].y + model.start_velocity[0].y * t + 0.5 * g * t * t + ahead;
+    const double to_now = g * (0.5 * clock.last_step - clock.velocity_ahead);
+    const double energy = 0.5 * mass * (25 + speed * speed - to_now * to_now);
+    CHECK(std::fabs(velocity(state, 0).y - speed) < 1e-12 * 80);
+    CHECK(std::fabs(state.body_sums[0].momentum.y - mass * speed) < 1e-12 * 80 * mass);
+    CHECK(std::fabs(state.nodes[0].y - place) < 1e-15);
+    CHECK(std::fabs(state.ledger.kinetic_energy - energy) < 1e-12 * energy);
+    const bool cut = n % 10 == 5;
+    if (cut) {
+      clock.next_velocity_ahead = 0.3 * clock.next_step;
+      clock.next_step *= 0.4;
+    }
+    coming = g * clock.next_step * clock.next_velocity_ahead;
+  }
+  CHECK(std::fabs(ahead) > 1e-11);
+}
+
 TEST_CASE("a fixed step above the stable limit is refused with both numbers") {
   Model model = build({.element_size = 0.02});
   model.run.time_step = 1e-5;

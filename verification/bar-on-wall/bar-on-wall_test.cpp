@@ -144,8 +144,12 @@ void check_bounces(const std::vector<int>& meshes) {
     CHECK(below("mirror symmetry", b.mirror, b.mirror_bound));
     lost.push_back(1 - b.restitution);
   }
-  // Airy's length: order 2/3.
-  CHECK(order_of("1 - restitution", lost) >= 0.5);
+  // Airy's length: order 2/3. The touch ends on one of the waves that ring at its end, here a little earlier, there a
+  // little later: every value scatters by some percent, the order of one halving by 0.1 (it does with a fixed step,
+  // too), that over all meshes by less.
+  order_of("1 - restitution", lost);
+  const double halvings = static_cast<double>(lost.size() - 1);
+  CHECK(std::log2(lost.front() / lost.back()) / halvings >= 0.5);
 }
 
 }  // namespace
@@ -154,7 +158,7 @@ TEST_CASE("bar-on-wall: fields half-way") { check_fields({50, 100, 200, 400}); }
 TEST_CASE("bar-on-wall: contact, force, restitution") { check_bounces({50, 100, 200}); }
 TEST_CASE("bar-on-wall: finer meshes (long)") {
   check_fields({400, 800});
-  check_bounces({400, 800});
+  check_bounces({50, 100, 200, 400, 800});
 }
 
 }  // namespace udar::verification

@@ -43,8 +43,8 @@ StepLimit stable_limit(const Model& model, const State& state) {
 }
 
 /// Blocks whose bound rises above this compute their frequency, so of a block that is not among the stiffest hardly
-/// anything has to be computed. The step is then at most half a percent smaller than it might be, or one percent where
-/// the stiffest elements have relaxed since; more in single steps of violent motion, never larger.
+/// anything has to be computed. The limit is then at most half a percent below the exact one, or one percent where the
+/// stiffest elements have relaxed since; more in single steps of violent motion, never larger.
 double next_threshold(const State& state) {
   constexpr double slack = 1.01;
   double largest = 0;
