@@ -12,9 +12,11 @@ namespace udar {
 
 /// Sums of one element block, added up in the order of blocks: the same bits for any number of threads.
 struct ElementSums {
-  double stress_work = 0;    ///< J
-  double plastic_work = 0;   ///< J
-  double smallest_area = 0;  ///< m2, twice the smallest area of the block, in the middle or at the end of the step
+  double stress_work = 0;   ///< J
+  double plastic_work = 0;  ///< J
+  /// m2, twice the smallest area in the middle or at the end of the step, where an element may have turned over; else
+  /// infinite.
+  double smallest_area = 0;
 };
 
 /// One block of elements with the arrays it reads and writes, from its first element on.

@@ -4,6 +4,7 @@
 
 #include "udar/base/transpose.hpp"
 #include "udar/step/block_kernels.hpp"
+#include "udar/step/lanes/lane_sums.hpp"
 
 namespace udar::UDAR_ISA {
 namespace {
@@ -88,11 +89,7 @@ struct LaneSum<double> {
     for (Index p = 0; p < lanes / Pack::lanes; ++p) packs.pack[p].store(lane + p * Pack::lanes);
   }
   void add(double value, Index at) { lane[at] += value; }
-  [[nodiscard]] double total() const {
-    double total = 0;
-    for (const double value : lane) total += value;
-    return total;
-  }
+  [[nodiscard]] double total() const { return sum_of_lanes(lane); }
 };
 
 template <class Real>

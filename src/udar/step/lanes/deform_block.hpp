@@ -5,6 +5,7 @@
 #include "udar/base/transpose.hpp"
 #include "udar/step/block_kernels.hpp"
 #include "udar/step/element_kernels.hpp"
+#include "udar/step/lanes/lane_sums.hpp"
 
 namespace udar::UDAR_ISA {
 namespace {
@@ -40,28 +41,20 @@ struct BlockBuffer {
 };
 
 /// Sums and extremes of a block, lane by lane and then over the lanes: an order that is fixed, whatever computes it.
+/// Works are kept as integrals over twice the area of (s_n + s_{n+1}) : de and of the plastic work, in J/m.
 struct LaneSums {
   static constexpr Index packs = lanes / Pack::lanes;
-  Pack stress_work[packs], plastic_work[packs], smallest_area[packs], stretch[packs];
+  Pack stress_work[packs], plastic_work[packs], stretch[packs];
 
   LaneSums() {
-    for (Index p = 0; p < packs; ++p) {
-      stress_work[p] = plastic_work[p] = stretch[p] = Pack(0);
-      smallest_area[p] = Pack(__builtin_inf());
-    }
+    for (Index p = 0; p < packs; ++p) stress_work[p] = plastic_work[p] = stretch[p] = Pack(0);
   }
   static Index pack_of(Index element) { return element % lanes / Pack::lanes; }
 
-  [[nodiscard]] ElementSums total() const {
-    ElementSums sums{.smallest_area = __builtin_inf()};
-    for (Index p = 0; p < packs; ++p) {
-      for (Index l = 0; l < Pack::lanes; ++l) {
-        sums.stress_work += stress_work[p].v[l];
-        sums.plastic_work += plastic_work[p].v[l];
-        sums.smallest_area = smaller(sums.smallest_area, smallest_area[p].v[l]);
-      }
-    }
-    return sums;
+  [[nodiscard]] ElementSums total(double half_thickness) const {
+    return {.stress_work = 0.5 * half_thickness * sum_of_lanes(stress_work),
+            .plastic_work = half_thickness * sum_of_lanes(plastic_work),
+            .smallest_area = __builtin_inf()};
   }
   [[nodiscard]] double largest_stretch() const {
     double squared = 0;
@@ -89,7 +82,6 @@ void strain(const ElementTask& task, Index i, const Sides<Pack>& start, const Si
   const StrainStep<Pack> e = strain_step(mid, half_change);
   for (const double* component : {task.xx, task.yy, task.xy, task.zz}) __builtin_prefetch(component + i, 1);
   const Index p = LaneSums::pack_of(i);
-  sums.smallest_area[p] = smaller(sums.smallest_area[p], e.twice_area);
   sums.stretch[p] = larger(sums.stretch[p], stretch_squared(e));
   buffer.sides[i / Pack::lanes] = mid + half_change;
   buffer.strains[i / Pack::lanes] = e;
@@ -101,9 +93,8 @@ bool try_elastic(const ElementTask& task, Index i, const Law& law, const StrainS
   const SymTensor<Pack> before = load_stress(task, i);
   const SymTensor<Pack> trial = elastic_trial(before, e, law.elasticity());
   store_stress(task, i, trial);
-  const Pack half_volume = Pack(0.5 * task.half_thickness) * e.twice_area;
   Pack& work = sums.stress_work[LaneSums::pack_of(i)];
-  work = work + half_volume * stress_work(before + trial, e);
+  work = work + e.twice_area * stress_work(before + trial, e);
   return any(law.flows(trial));
 }
 
@@ -116,10 +107,9 @@ void flow(const ElementTask& task, Index i, const Law& law, const StrainStep<Pac
   const Pack plastic_strain = after.plastic_work * Pack(law.plastic_strain_of_work());
   (Pack::load(task.plastic_strain + i) + plastic_strain).store(task.plastic_strain + i);
 
-  const Pack volume = Pack(task.half_thickness) * e.twice_area;
   const Index p = LaneSums::pack_of(i);
-  sums.plastic_work[p] = sums.plastic_work[p] + volume * after.plastic_work;
-  sums.stress_work[p] = sums.stress_work[p] + Pack(0.5) * volume * stress_work(after.stress - trial, e);
+  sums.plastic_work[p] = sums.plastic_work[p] + e.twice_area * after.plastic_work;
+  sums.stress_work[p] = sums.stress_work[p] + e.twice_area * stress_work(after.stress - trial, e);
   std::uint8_t& byte = task.flowing[i / lanes];
   byte = static_cast<std::uint8_t>(byte | bits(law.flows(trial)) << i % lanes);
 }
@@ -150,7 +140,8 @@ void press_corners(const ElementTask& task, Index q, const BlockBuffer& buffer) 
   put_forces(task, q, 0, -(x1 + one.x2 + two.x1), -(y1 + one.y2 + two.y1));
 }
 
-/// Largest frequency of the elements at the end of the step, and who has it; returns twice the smallest area then.
+/// Largest frequency of the elements at the end of the step, and who has it; returns twice the smallest area in the
+/// middle of the step and then.
 [[gnu::noinline]] double compute_frequency(const ElementTask& task, Index elements, const Elasticity& elasticity,
                                            const BlockBuffer& buffer) {
   FrequencyBound& found = *task.frequency;
@@ -158,7 +149,7 @@ void press_corners(const ElementTask& task, Index q, const BlockBuffer& buffer) 
   double smallest = __builtin_inf();
   for (Index i = 0; i < elements; i += Pack::lanes) {
     const Sides<Pack>& end = buffer.sides[i / Pack::lanes];
-    const Pack area = end.twice_area();
+    const Pack area = smaller(end.twice_area(), buffer.strains[i / Pack::lanes].twice_area);
     const Pack squared = eigenfrequency_squared(end, elasticity, Pack::load(task.area_density + i)) +
                          Pack::load(task.contact_spring + i);
     for (Index l = 0; l < Pack::lanes; ++l) {
@@ -174,14 +165,15 @@ void press_corners(const ElementTask& task, Index q, const BlockBuffer& buffer) 
 
 /// The bound grows by as much as the ratio of the principal stretches of any element may have grown: turned to the
 /// principal axes of B B^T, no entry of the matrix of `eigenfrequency_squared` grows by more. While it holds no element
-/// can turn over between the middle and the end of the step either.
+/// turns over either: from its middle to its ends the step deforms the material by 1 -+ G/2, whose determinants are
+/// then above 0.
 void bound_frequency(const ElementTask& task, Index elements, const Elasticity& elasticity, const BlockBuffer& buffer,
                      double stretch, ElementSums& sums) {
   constexpr double bounded = 0.1;  // see stretch_squared
   FrequencyBound& frequency = *task.frequency;
   frequency.squared = stretch <= bounded ? frequency.squared * (1 + 1.1 * stretch) : __builtin_inf();
   if (frequency.squared <= task.compute_above) return;
-  sums.smallest_area = smaller(sums.smallest_area, compute_frequency(task, elements, elasticity, buffer));
+  sums.smallest_area = compute_frequency(task, elements, elasticity, buffer);
 }
 
 /// Loop by loop rather than element by element: each loop keeps its constants and intermediate results in registers,
@@ -209,7 +201,7 @@ template <class Law, bool paired>
   }
   for (Index q = 0; q < task.count; q += Pack::lanes) press_corners<paired>(task, q, buffer);
 
-  ElementSums total = sums.total();
+  ElementSums total = sums.total(task.half_thickness);
   bound_frequency(task, elements, law.elasticity(), buffer, sums.largest_stretch(), total);
   return total;
 }
