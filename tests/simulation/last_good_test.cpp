@@ -7,7 +7,7 @@
 
 namespace udar {
 
-TEST_CASE("the state before any step comes back with every bit, pushed nodes and others") {
+TEST_CASE("the state before any step comes back with every bit") {
   Case input = falling_block();
   input.supports = {{.name = "hand", .nodes = {.body = "block", .side = "left"}, .move_x = TimeTable::constant(0)}};
   input.run.time_step = 0.1e-6;

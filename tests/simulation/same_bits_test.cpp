@@ -102,7 +102,6 @@ Model odd_disc() {
   Model model;
   add_beam(model, mesh, std::get<Tresca>(plastic_steel.law));
   add_stop(model, 2e9);
-  model.pushed_nodes = model.contact_nodes;
   model.run.end_time = 1;
   return model;
 }

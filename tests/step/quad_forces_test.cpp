@@ -120,8 +120,7 @@ Direct summed_directly(const Model& model, const State& state) {
 }
 
 /// Adds the sums at the nodes of a block to those of all: each node must be summed once.
-void add_sums(const Model& model, const QuadForces& forces, std::size_t block, std::vector<Vec2>& all) {
-  const NodeForces sums = forces.sum(block);
+void add_sums(const Model& model, const NodeForces& sums, std::size_t block, std::vector<Vec2>& all) {
   const NodeBlock& nodes = model.node_blocks[block];
   for (Index node = nodes.begin; node < nodes.end; ++node) all[node] += sums.internal[node - nodes.begin];
 }
@@ -143,7 +142,7 @@ TEST_CASE("every corner force arrives at its node once, in the order of the quad
               const Index count = 4 * model.element_blocks[b].quad_count();
               for (Index place = 0; place < count; ++place) forces.of_block(b)[place] = some_force(model, b, place);
             },
-            [&](std::size_t b) { add_sums(model, forces, b, found); });
+            [&](std::size_t b, const NodeForces& sums) { add_sums(model, sums, b, found); });
         for (Index node = 0; node < model.node_count; ++node) {
           CHECK(found[node].x == expected[node].x);
           CHECK(found[node].y == expected[node].y);
@@ -164,7 +163,7 @@ TEST_CASE("kernels put the forces of every element where its nodes look for them
       std::vector<Vec2> found(model.node_count);
       work.forces.for_each_block(
           work.pool, [&](std::size_t b) { deform_elements(model, state, work, b); },
-          [&](std::size_t b) { add_sums(model, work.forces, b, found); });
+          [&](std::size_t b, const NodeForces& sums) { add_sums(model, sums, b, found); });
       const Direct direct = summed_directly(model, state);
       if (first.empty()) first.assign(found.begin(), found.end());
       for (Index node = 0; node < model.node_count; ++node) {

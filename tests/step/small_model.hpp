@@ -122,7 +122,6 @@ inline Model build(const SmallModel& from = {}) {
     m.supports.push_back(
         {.name = "held", .nodes = nodes_of(m, from.held), .holds_x = true, .move_x = {}, .move_y = {}, .turn = {}});
   }
-  m.pushed_nodes = m.contact_nodes;
   return m;
 }
 

@@ -144,15 +144,6 @@ void cut_node_blocks(Model& model) {
   }
 }
 
-void list_pushed_nodes(Model& model) {
-  auto& nodes = model.pushed_nodes;
-  if (!model.obstacles.empty()) nodes = model.contact_nodes;
-  for (const Load& load : model.loads) nodes.insert(nodes.end(), load.nodes.begin(), load.nodes.end());
-  for (const Support& s : model.supports) nodes.insert(nodes.end(), s.nodes.begin(), s.nodes.end());
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-}
-
 }  // namespace
 
 Model build_model(const Case& input) {
@@ -179,7 +170,6 @@ Model build_model(const Case& input, std::vector<Mesh> meshes) {
   add_supports(model, input, meshes);
   add_loads(model, input, meshes);
   add_observers(model, input, meshes);
-  list_pushed_nodes(model);
   model.output = {.fields_every = input.output.fields_every.value_or(0),
                   .fields_at = input.output.fields_at,
                   .histories_every = input.output.histories_every.value_or(input.run.end_time / 1000)};

@@ -142,8 +142,6 @@ struct Model {
 
   std::vector<Support> supports;
   std::vector<Load> loads;
-  /// Nodes that contact, loads or supports may push; only there is the external force other than zero.
-  std::vector<Index> pushed_nodes;
 
   std::vector<NodeObserver> observed_nodes;
   std::vector<ElementObserver> observed_elements;

@@ -85,7 +85,6 @@ struct State {
   Clock clock;
   Array<NodeRecord> nodes;   ///< padding nodes at the end
   Array<Vec2> acceleration;  ///< m/s2, a_n
-  Array<Vec2> external;      ///< N, contact, loads and supports
 
   // Adams integrators only, else empty.
   Array<Vec2> velocity;             ///< m/s, v_n
@@ -130,7 +129,6 @@ void for_each_field(S& state, Visitor&& visit) {
   visit("clock", state.clock);
   visit("nodes", state.nodes);
   visit("acceleration", state.acceleration);
-  visit("external", state.external);
   visit("velocity", state.velocity);
   visit("velocity_before", state.velocity_before);
   visit("last_acceleration", state.last_acceleration);

@@ -67,7 +67,7 @@ void accelerate_nodes(const Model& model, State& state, Workspace& work, std::si
   task.mass = &model.mass[block.begin];
   task.inverse_mass = &model.inverse_mass[block.begin];
   task.internal = forces.internal;
-  task.external = outer.any_pushed() ? &state.external[block.begin] : nullptr;
+  task.external = forces.external();
   task.acceleration = &state.acceleration[block.begin];
   if (multistep) {
     task.velocity = &state.velocity[block.begin];

@@ -11,8 +11,8 @@ namespace {
 double dashpot(double fraction, double stiffness, double mass) { return 2 * fraction * std::sqrt(stiffness * mass); }
 
 template <class PreparedShape>
-ContactSums touch_obstacle(const Model& model, State& state, const Obstacle& obstacle, const PreparedShape& shape,
-                           const OuterNodes& nodes, bool none_touched, SpringState* springs) {
+ContactSums touch_obstacle(const Model& model, const State& state, const Obstacle& obstacle, const PreparedShape& shape,
+                           const OuterNodes& nodes, bool none_touched, SpringState* springs, NodeForces& forces) {
   const double h = state.clock.last_step;
   const Vec2 moved = state.clock.time.value() * obstacle.velocity;
   ContactSums sums;
@@ -29,7 +29,7 @@ ContactSums touch_obstacle(const Model& model, State& state, const Obstacle& obs
     if (springs[c].touches == 0) continue;
 
     ++sums.touching;
-    state.external[node] += springs[c].normal_force + springs[c].friction_force + springs[c].damping_force;
+    forces.push(node, springs[c].normal_force + springs[c].friction_force + springs[c].damping_force);
     sums.normal_energy += 0.5 * stiffness.normal * springs[c].penetration * springs[c].penetration;
     sums.tangential_energy += tangential_energy(springs[c], stiffness);
     sums.largest_penetration = std::max(sums.largest_penetration, springs[c].penetration / model.contact_node_sizes[c]);
@@ -39,16 +39,17 @@ ContactSums touch_obstacle(const Model& model, State& state, const Obstacle& obs
 
 }  // namespace
 
-void add_contact_force(const Model& model, State& state, Workspace& work, std::size_t b) {
+void add_contact_force(const Model& model, State& state, Workspace& work, std::size_t b, NodeForces& forces) {
   const std::size_t blocks = model.node_blocks.size();
   const OuterNodes& nodes = work.outer_nodes[b];
-  for (std::size_t k = nodes.pushed_begin; k < nodes.pushed_end; ++k) state.external[model.pushed_nodes[k]] = {};
   SpringState* springs = state.contacts.data();
   for (std::size_t o = 0; o < model.obstacles.size(); ++o, springs += model.contact_nodes.size()) {
     const Obstacle& obstacle = model.obstacles[o];
     const bool none_touched = state.obstacles[o].touching == 0;  // then nobody's springs need to be looked at
     work.contact_sums[o * blocks + b] = std::visit(
-        [&](const auto& shape) { return touch_obstacle(model, state, obstacle, shape, nodes, none_touched, springs); },
+        [&](const auto& shape) {
+          return touch_obstacle(model, state, obstacle, shape, nodes, none_touched, springs, forces);
+        },
         obstacle.prepared);
   }
 }

@@ -28,10 +28,10 @@ void set_loads(const Model& model, State& state) {
   }
 }
 
-void add_load_force(const Model&, State& state, const Workspace& work, std::size_t block) {
+void add_load_force(const State& state, const Workspace& work, std::size_t block, NodeForces& forces) {
   const OuterNodes& nodes = work.outer_nodes[block];
   for (std::size_t k = nodes.loaded_begin; k < nodes.loaded_end; ++k) {
-    state.external[work.loaded[k].node] += state.load_forces[work.loaded[k].slot];
+    forces.push(work.loaded[k].node, state.load_forces[work.loaded[k].slot]);
   }
 }
 

@@ -12,7 +12,7 @@ void set_supports(const Model& model, const State& state, Workspace& work) {
   }
 }
 
-void add_support_force(const Model& model, State& state, Workspace& work, std::size_t block, const NodeForces& forces) {
+void add_support_force(const Model& model, State& state, Workspace& work, std::size_t block, NodeForces& forces) {
   const OuterNodes& nodes = work.outer_nodes[block];
   const Clock& clock = state.clock;
   const double rate = damping_rate(model, state);
@@ -27,13 +27,12 @@ void add_support_force(const Model& model, State& state, Workspace& work, std::s
     const Vec2 target =
         support.turns ? support.centre + motion.turn * (rest - support.centre) : rest + motion.displacement;
     held.velocity = (1 / clock.next_step) * (target - place_after(record, clock.last_step));
-    const Vec2 force = forces.internal[held.node - model.node_blocks[block].begin] + state.external[held.node] +
-                       model.mass[held.node] * model.run.gravity +
+    const Vec2 force = forces.total(held.node) + model.mass[held.node] * model.run.gravity +
                        damping_force(model, state, held.node, rate, damping_reference(model, state, support.body));
     const Vec2 reaction = (model.mass[held.node] / span) * (held.velocity - before) - force;
     Vec2& kept = state.support_forces[held.slot];
     kept = {support.holds_x ? reaction.x : 0, support.holds_y ? reaction.y : 0};
-    state.external[held.node] += kept;
+    forces.push(held.node, kept);
   }
 }
 

@@ -66,7 +66,7 @@ struct NodeTask {
   NodeRecord* nodes;
   const double* mass;
   const double* inverse_mass;
-  const Vec2* external;       ///< N; null where nothing can push any of the nodes
+  const Vec2* external;       ///< N; null where nothing pushes any of the nodes
   const Vec2* internal;       ///< N
   Vec2* acceleration;         ///< m/s2
   Vec2* velocity;             ///< m/s; this and the next three for the Adams rules only

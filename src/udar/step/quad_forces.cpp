@@ -102,27 +102,29 @@ std::size_t QuadForces::first_done_after(std::size_t block) const {
   return static_cast<std::size_t>(found - early_.begin());
 }
 
-NodeForces QuadForces::sum(std::size_t node_block) const {
+void QuadForces::sum(std::size_t node_block, NodeForces& forces) const {
   using Two = double __attribute__((vector_size(16)));
-  const auto force = [forces = forces_.data()](std::uint32_t slot) {
+  const auto force = [corners = forces_.data()](std::uint32_t slot) {
     Two f;
-    __builtin_memcpy(&f, &forces[slot].x, sizeof f);
+    __builtin_memcpy(&f, &corners[slot].x, sizeof f);
     return f;
   };
-  const NodeBlock& block = node_blocks_[node_block];
-  NodeForces sums;
-  const std::uint32_t* slot = slots_.data() + offsets_[block.begin];
-  for (Index i = block.begin; i < block.end; ++i) {
-    const std::uint32_t* const end = slots_.data() + offsets_[i + 1];
+  const NodeBlock block = node_blocks_[node_block];
+  forces.begin(block.begin);
+  Vec2* to = forces.internal;
+  const std::uint32_t* const slots = slots_.data();
+  const std::uint32_t* offset = offsets_.data() + block.begin;
+  const std::uint32_t* slot = slots + *offset;
+  for (Index i = block.begin; i < block.end; ++i, ++to) {
+    const std::uint32_t* const end = slots + *++offset;
     Two total{};
     if (end - slot == 4) {  // by far the most
       total = ((force(slot[0]) + force(slot[1])) + force(slot[2])) + force(slot[3]);
       slot = end;
     }
     for (; slot != end; ++slot) total += force(*slot);
-    __builtin_memcpy(&sums.internal[i - block.begin].x, &total, sizeof total);
+    __builtin_memcpy(&to->x, &total, sizeof total);
   }
-  return sums;
 }
 
 }  // namespace udar

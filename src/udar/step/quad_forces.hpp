@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <vector>
 
 #include "udar/base/array.hpp"
@@ -9,9 +11,32 @@
 
 namespace udar {
 
-/// Sums of the elements' forces on the nodes of one block.
-struct NodeForces {
-  alignas(64) Vec2 internal[nodes_per_block];  ///< N
+/// Forces on the nodes of one block, N.
+class NodeForces {
+ public:
+  void begin(Index first_node) {
+    first_ = first_node;
+    pushed_ = false;
+  }
+  /// Adds a force from outside: contact, a load, a support.
+  void push(Index node, Vec2 force) {
+    if (!pushed_) std::fill(std::begin(external_), std::end(external_), Vec2{});
+    pushed_ = true;
+    external_[node - first_] += force;
+  }
+  [[nodiscard]] Vec2 total(Index node) const {
+    const Index i = node - first_;
+    return pushed_ ? internal[i] + external_[i] : internal[i];
+  }
+  /// From the first node of the block on; null where nothing pushes.
+  [[nodiscard]] const Vec2* external() const { return pushed_ ? external_ : nullptr; }
+
+  alignas(64) Vec2 internal[nodes_per_block];  ///< sums of the elements' forces
+
+ private:
+  alignas(64) Vec2 external_[nodes_per_block];
+  Index first_ = 0;
+  bool pushed_ = false;
 };
 
 /// Forces of elements on their corners, and their sums at the nodes.
@@ -32,25 +57,35 @@ class QuadForces {
   /// Where an element block writes its forces, N: four for each quad.
   [[nodiscard]] Vec2* of_block(std::size_t block) { return forces_.data() + forces_per_block * place_[block]; }
 
-  /// Sums at the nodes of a block, each in the order of the quads.
-  [[nodiscard]] NodeForces sum(std::size_t node_block) const;
+  /// Sums at the nodes of a block, each in the order of the quads; nothing from outside yet.
+  void sum(std::size_t node_block, NodeForces& forces) const;
 
-  /// Calls deform(block) for every element block, and finish(block) for every block of nodes whose elements are done.
+  /// Calls deform(block) for every element block, and finish(block, sums) for every block of nodes when all its
+  /// elements are done.
   template <class Deform, class Finish>
   void for_each_block(Pool& pool, Deform&& deform, Finish&& finish) {
+    const auto sum_and_finish = [&](std::size_t node_block, NodeForces& room) {
+      sum(node_block, room);
+      finish(node_block, room);
+    };
     pool.for_each_run(element_blocks_, [&](std::size_t begin, std::size_t end) {
+      NodeForces room;
       std::size_t next = first_done_after(begin);
       for (std::size_t block = begin; block < end; ++block) {
         deform(block);
-        for (; next < early_.size() && early_[next].after == block; ++next) finish(early_[next].nodes);
+        for (; next < early_.size() && early_[next].after == block; ++next) sum_and_finish(early_[next].nodes, room);
       }
     });
     // With few threads these are few: to wake the others would take longer.
     constexpr std::size_t few = 16;
+    const auto finish_late = [&](std::size_t begin, std::size_t end) {
+      NodeForces room;
+      for (std::size_t k = begin; k < end; ++k) sum_and_finish(late_[k], room);
+    };
     if (late_.size() <= few) {
-      for (const std::size_t nodes : late_) finish(nodes);
+      finish_late(0, late_.size());
     } else {
-      pool.for_each_block(late_.size(), [&](std::size_t k) { finish(late_[k]); });
+      pool.for_each_run(late_.size(), finish_late);
     }
   }
 

@@ -17,9 +17,9 @@ void close_books(const Model& model, State& state, Workspace& work);
 
 // Parts of the sweep, for one block of elements or of nodes.
 void deform_elements(const Model& model, State& state, Workspace& work, std::size_t block);
-void add_contact_force(const Model& model, State& state, Workspace& work, std::size_t block);
-void add_load_force(const Model& model, State& state, const Workspace& work, std::size_t block);
-void add_support_force(const Model& model, State& state, Workspace& work, std::size_t block, const NodeForces& forces);
+void add_contact_force(const Model& model, State& state, Workspace& work, std::size_t block, NodeForces& forces);
+void add_load_force(const State& state, const Workspace& work, std::size_t block, NodeForces& forces);
+void add_support_force(const Model& model, State& state, Workspace& work, std::size_t block, NodeForces& forces);
 void accelerate_nodes(const Model& model, State& state, Workspace& work, std::size_t block, const NodeForces& forces);
 
 /// Part of close_books: what the springs hold and have lost, and how deep they are pressed.

@@ -15,7 +15,6 @@ State rest_state(const Model& model) {
     state.nodes[i] = {model.rest[i].x, model.rest[i].y, model.start_velocity[i].x, model.start_velocity[i].y};
   }
   state.acceleration.resize(nodes);
-  state.external.resize(nodes);
   if (rule_of(model.run.integrator).weights != nullptr) {
     state.velocity.assign(model.start_velocity.begin(), model.start_velocity.end());
     state.velocity_before = state.velocity;

@@ -13,10 +13,9 @@ void sweep(const Model& model, State& state, Workspace& work) {
       [&](std::size_t elements) {
         deform_elements(model, state, work, elements);  // strain and turn, stress, corner forces at x_{n+1}
       },
-      [&](std::size_t nodes) {
-        NodeForces forces = work.forces.sum(nodes);            // of the elements on the nodes
-        add_contact_force(model, state, work, nodes);          // springs and friction at x_{n+1}
-        add_load_force(model, state, work, nodes);             // point forces, tractions, pressures
+      [&](std::size_t nodes, NodeForces& forces) {             // those of the elements are summed
+        add_contact_force(model, state, work, nodes, forces);  // springs and friction at x_{n+1}
+        add_load_force(state, work, nodes, forces);            // point forces, tractions, pressures
         add_support_force(model, state, work, nodes, forces);  // what it takes to move the held nodes as given
         accelerate_nodes(model, state, work, nodes, forces);   // x_{n+1}, a_{n+1} and the velocity to x_{n+2}
       });

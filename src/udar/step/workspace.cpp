@@ -47,7 +47,6 @@ Workspace::Workspace(const Model& model, int threads)
     };
     OuterNodes& nodes = outer_nodes.emplace_back();
     range(model.contact_nodes, nodes.contact_begin, nodes.contact_end);
-    range(model.pushed_nodes, nodes.pushed_begin, nodes.pushed_end);
     range(loaded, nodes.loaded_begin, nodes.loaded_end);
     range(held, nodes.held_begin, nodes.held_end);
   }

@@ -38,19 +38,14 @@ struct SupportMotion {
   Turn turn{};
 };
 
-/// The nodes of a block that something may push: positions in Model::contact_nodes and Model::pushed_nodes, and in the
-/// Workspace's lists.
+/// The nodes of a block that something may push: positions in Model::contact_nodes and in the Workspace's lists.
 struct OuterNodes {
   std::size_t contact_begin = 0;
   std::size_t contact_end = 0;
-  std::size_t pushed_begin = 0;
-  std::size_t pushed_end = 0;
   std::size_t loaded_begin = 0;
   std::size_t loaded_end = 0;
   std::size_t held_begin = 0;
   std::size_t held_end = 0;
-
-  [[nodiscard]] bool any_pushed() const { return pushed_begin < pushed_end; }
 };
 
 /// Room for what a step computes and forgets, and the threads that compute it. Nothing here is State.
