@@ -1,5 +1,6 @@
 #include "udar/output/history_recorder.hpp"
 
+#include <chrono>
 #include <cmath>
 #include <exception>
 
@@ -54,6 +55,14 @@ void HistoryRecorder::write_rows(const State& state) {
     row_.assign(1, state.clock.time.value());
     row_.insert(row_.end(), w.values.begin(), w.values.end());
     w.file->write_row(row_);
+  }
+  // Who looks at a run that is under way, or one that was killed, finds all but its last second.
+  constexpr std::chrono::seconds between_flushes{1};
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last_flush_ < between_flushes) return;
+  last_flush_ = now;
+  for (Watched& w : watched_) {
+    if (w.file) w.file->flush();
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -38,6 +39,7 @@ class HistoryRecorder {
   std::optional<std::uint64_t> last_written_step_;
   std::vector<Watched> watched_;
   std::vector<double> row_;
+  std::chrono::steady_clock::time_point last_flush_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace udar

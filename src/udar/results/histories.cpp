@@ -46,6 +46,8 @@ double parse_number(std::string_view text, std::string_view file, std::size_t li
 
 HistoryWriter::HistoryWriter(const std::filesystem::path& path, const std::vector<Column>& columns)
     : file_(path), column_count_(columns.size()) {
+  constexpr std::size_t longest_number = 25;  // -2.2250738585072014e-308 and a comma
+  row_.resize(columns.size() * longest_number);
   std::string header;
   for (const Column& column : columns) {
     if (!header.empty()) header += ',';
@@ -57,22 +59,13 @@ HistoryWriter::HistoryWriter(const std::filesystem::path& path, const std::vecto
 
 void HistoryWriter::write_row(std::span<const double> values) {
   assert(values.size() == column_count_);
-  constexpr int rows_between_flushes = 16;
-  constexpr std::size_t longest_number =
-      25;  // of the shortest forms that give the same double again: -2.2250738585072014e-308
-  row_.resize(values.size() * longest_number);
   char* to = row_.data();
   for (const double value : values) {
     to = std::to_chars(to, row_.data() + row_.size(), value).ptr;
     *to++ = ',';
   }
   to[-1] = '\n';
-  row_.resize(static_cast<std::size_t>(to - row_.data()));
-  file_.write(row_);
-  if (++unflushed_rows_ == rows_between_flushes) {
-    file_.flush();
-    unflushed_rows_ = 0;
-  }
+  file_.write({row_.data(), to});
 }
 
 const std::vector<double>& History::at(std::string_view name) const {

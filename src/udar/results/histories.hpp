@@ -25,15 +25,14 @@ class HistoryWriter {
   HistoryWriter(const std::filesystem::path& path, const std::vector<Column>& columns);
   /// One value for each column.
   void write_row(std::span<const double> values);
-  /// Makes all rows so far visible to other programs; also done by itself every few rows.
+  /// Makes all rows so far visible to other programs.
   void flush() { file_.flush(); }
   void close() { file_.close(); }
 
  private:
   AppendFile file_;
-  std::string row_;
+  std::string row_;  ///< room for the longest
   std::size_t column_count_;
-  int unflushed_rows_ = 0;
 };
 
 /// A history read back: values[c] are the rows of columns[c].
