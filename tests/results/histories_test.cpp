@@ -39,11 +39,12 @@ TEST_CASE("numbers that are none are kept") {
   CHECK(history.at("y")[0] == -std::numeric_limits<double>::infinity());
 }
 
-TEST_CASE("rows of a running program are seen, and half a row of a killed one is dropped") {
+TEST_CASE("rows of a running program are seen once they are flushed, and half a row of a killed one is dropped") {
   const Scratch folder;
   HistoryWriter writer(folder / "a.csv", {{"x", "m"}});
   for (double x = 0; x < 100; ++x) writer.write_row(std::array{x});
-  CHECK(read_csv(folder / "a.csv").at("x").size() >= 84);
+  writer.flush();
+  CHECK(read_csv(folder / "a.csv").at("x").size() == 100);
   CHECK(parse_csv("a,b\n1,2\n3,", "f").at("b") == std::vector<double>{2});
 }
 
