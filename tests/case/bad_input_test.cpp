@@ -291,6 +291,17 @@ std::vector<Bad> bad_texts() {
        beam_and("[supports.s]\nbody = \"beam\"\nnodes = { line = [[\"0 m\", \"0 m\"], [\"0 m\", \"0 m\"]] }\nmove_x = "
                 "\"0 m\"\n"),
        {"the line has no length", "bad.toml:31:18"}},
+      {"pair with an unknown body",
+       beam_and("[[contact.pairs]]\nbody = \"beam\"\nother = \"baem\"\ntouch = \"no\"\n"),
+       {"baem", "bad.toml:31:9", "beam"}},
+      {"pair named twice",
+       beam_and(
+           "[[contact.pairs]]\nbody = \"beam\"\nother = \"beam\"\nfriction = 0.1\n[[contact.pairs]]\nbody = \"beam\"\n"
+           "other = \"beam\"\n"),
+       {"the pair beam, beam stands here twice", "bad.toml:35:9"}},
+      {"pair that may touch",
+       beam_and("[[contact.pairs]]\nbody = \"beam\"\nother = \"beam\"\ntouch = \"maybe\"\n"),
+       {"maybe", "bad.toml:32:9", "yes"}},
       {"two loads in one",
        beam_and(
            "[loads.l]\nbody = \"beam\"\nnodes = { side = \"top\" }\nforce = [\"0 N\", \"1 N\"]\npressure = \"1 Pa\"\n"),

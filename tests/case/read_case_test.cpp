@@ -60,6 +60,12 @@ when_unstable = "continue"
 damping = { rate = "50 1/s", against = "mean_motion", factor = { times = ["0 s", "1 s"], values = [1, 0] } }
 [contact]
 damping = 0.1
+friction = 0.2
+stiffness = "3 MN/m"
+[[contact.pairs]]
+body = "wheel"
+other = "wheel"
+touch = "no"
 [materials.rubber]
 law = "elastic"
 density = "1100 kg/m^3"
@@ -119,6 +125,12 @@ histories_every = "1 ms"
   CHECK(c.run.damping.against == MassDamping::Against::mean_motion);
   CHECK(c.run.damping.factor.values == std::vector<double>{1, 0});
   CHECK(c.contact.damping == 0.1);
+  CHECK(c.contact.friction == 0.2);
+  CHECK(*c.contact.stiffness == 3e6);
+  REQUIRE(c.contact_pairs.size() == 1);
+  CHECK(c.contact_pairs[0].other == "wheel");
+  CHECK(c.contact_pairs[0].touch == ContactPairCase::Touch::no);
+  CHECK(!c.contact_pairs[0].friction);
   CHECK(c.bodies[0].spin == doctest::Approx(6.283185307));
   CHECK(c.bodies[0].cosine_mode->wave_vector == Vec2{3, 0});
   CHECK(std::get<RingMesh>(c.bodies[0].mesh).inner_radius == 0.05);

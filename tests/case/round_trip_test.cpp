@@ -28,7 +28,9 @@ class RandomCase {
       c.run.time_step = positive();
       c.run.when_unstable = WhenUnstable::carry_on;
     }
-    c.contact.damping = fraction();
+    c.contact = {fraction(), positive(), maybe(positive())};
+    c.contact_pairs = {{"a", "b", static_cast<ContactPairCase::Touch>(below(2)), maybe(positive()), maybe(positive())},
+                       {.body = "b", .other = "b"}};
     for (const char* name : {"steel", "0-soft_one"}) {
       const Law law = below(2) == 0 ? Law(Elastic{positive(), 0.5 * fraction() - 0.01})
                                     : Law(Tresca{positive(), -fraction() * 0.9, positive()});

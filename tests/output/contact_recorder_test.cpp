@@ -17,6 +17,7 @@ class Script {
   Script() : model_(build_model(two_blocks())), recorder_(model_) {
     state_.contacts.resize(model_.contact_nodes.size());
     state_.obstacles.resize(1);
+    state_.pairs.resize(pair_number(model_.bodies.size(), 0));
     state_.body_momentum = {{0, -80 * model_.bodies[0].mass}, {0, -80 * model_.bodies[1].mass}};
     recorder_.record(state_);
   }
@@ -26,7 +27,7 @@ class Script {
     state_.clock.time.add(1);
     ++state_.clock.step;
     for (SpringState& s : state_.contacts) s.touches = 0;
-    ObstacleBook& book = state_.obstacles[0];
+    ContactBook& book = state_.obstacles[0];
     book.touching = force != 0 ? 1 : 0;
     for (ForceBook* b : {&book.total, &book.normal}) {
       b->force = {0, force};

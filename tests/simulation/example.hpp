@@ -73,8 +73,9 @@ static_assert(sizeof(BodySums) == 3 * sizeof(Vec2) + sizeof(double));
 static_assert(sizeof(NodeRecord) == 4 * sizeof(double));
 static_assert(sizeof(SpringState) ==
               2 * sizeof(double) + 4 * sizeof(Vec2) + sizeof(std::uint32_t) + 2 * sizeof(std::uint16_t));
+static_assert(sizeof(BodyTouch) == 4 * sizeof(std::uint32_t) + 4 * sizeof(double) + sizeof(SpringState));
 static_assert(sizeof(ForceBook) == 4 * sizeof(Vec2) + 3 * sizeof(CompensatedSum) + sizeof(double));
-static_assert(sizeof(ObstacleBook) == 2 * sizeof(ForceBook) + sizeof(std::uint64_t));
+static_assert(sizeof(ContactBook) == 2 * sizeof(ForceBook) + sizeof(std::uint64_t));
 static_assert(sizeof(Ledger) ==
               force_kinds * sizeof(ForceBook) + 6 * sizeof(CompensatedSum) + 12 * sizeof(double) + 3 * sizeof(Vec2));
 

@@ -164,12 +164,12 @@ TEST_CASE("the same bits: a spinning ring with a moving support, pressure, dampi
 
 TEST_CASE("the same bits: bodies of different laws and sizes on several obstacles with dashpots") {
   const Model model = build_model(crowd());
-  const State state = after(model, 300);
+  const State state = after(model, 500);
   REQUIRE(flowed(state));
   REQUIRE(blocks(model, true) > 0);
   REQUIRE(blocks(model, false) > 0);
-  for (const ObstacleBook& obstacle : state.obstacles) REQUIRE(length(obstacle.total.impulse()) > 0);
-  check_same_bits(model, 300);
+  for (const ContactBook& obstacle : state.obstacles) REQUIRE(length(obstacle.total.impulse()) > 0);
+  check_same_bits(model, 500);
 }
 
 TEST_CASE("the same bits: an odd number of triangles, some of them single") {

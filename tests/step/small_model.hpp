@@ -67,6 +67,7 @@ inline void add_stop(Model& m, double stiffness) {
   for (const Edge& edge : m.bodies[0].boundary) m.contact_nodes.push_back(edge.a);
   std::sort(m.contact_nodes.begin(), m.contact_nodes.end());
   const std::size_t count = m.contact_nodes.size();
+  m.contact_bodies.assign(count, 0);
   m.contact_node_sizes.assign(count, 0.01);
   const Shape shape = Rectangle{.at = {-0.0137, -0.1}, .size = {0.06, 0.1}};
   const PreparedShape prepared = prepare(shape);

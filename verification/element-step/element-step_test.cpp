@@ -119,6 +119,7 @@ Model one_triangle(const Triangle& t, double speed, double safety) {
   model.quads[1] = model.quads[2];
   model.area_density[1] = model.area_density[2];
   model.element_count = 1;
+  model.segments.clear();  // its boundary is not that of the cell: it cannot touch itself
   body.element_end = body.element_begin + 1;
   const double area = 0.5e-6 * twice_area_of(t);
   model.area_density[0] = density * area;

@@ -22,7 +22,7 @@ struct Oscillator {
   explicit Oscillator(Integrator kind, double step, double start_speed = speed)
       : model(build_model(with(kind, start_speed))), work(model, 1), state(rest_state(model)) {
     find_frequencies(model, state, work);
-    choose_time_step(model, state);
+    choose_time_step(model, state, work);
     state.clock.next_step = step;
     open_books(model, state);
     sweep(model, state, work);

@@ -67,7 +67,7 @@ Bounce bounce(const Case& input) {
     last_y = y;
     depth.push_back(-y);
     double sum = 0;
-    for (const ObstacleBook& book : r.state.obstacles) sum += book.total.force.y;
+    for (const ContactBook& book : r.state.obstacles) sum += book.total.force.y;
     force.push_back(sum);
     out.distortion = std::max(out.distortion, distortion(r));
   });
@@ -77,7 +77,7 @@ Bounce bounce(const Case& input) {
     out.force = parabola_peak(force[i - 1], force[i], force[i + 1]);
   }
   out.restitution = coming_velocity(run, 0).y / speed;
-  for (const ObstacleBook& book : run.state.obstacles) out.impulse += book.total.impulse().y;
+  for (const ContactBook& book : run.state.obstacles) out.impulse += book.total.impulse().y;
   out.energy_error = run.state.ledger.energy_error();
   return out;
 }

@@ -166,7 +166,10 @@ Model build_model(const Case& input, std::vector<Mesh> meshes) {
   for (const double mass : model.mass) model.inverse_mass.push_back(1 / mass);
   cut_node_blocks(model);
 
+  add_contact_nodes(model);
   add_obstacles(model, input);
+  add_body_pairs(model, input);
+  limit_contact_steps(model);
   add_supports(model, input, meshes);
   add_loads(model, input, meshes);
   add_observers(model, input, meshes);

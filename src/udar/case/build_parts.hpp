@@ -9,8 +9,14 @@ namespace udar {
 
 /// The parts of `build_model` that need the meshes of the bodies, in the order of the case.
 
-/// Obstacles, the nodes that may touch them, and their springs.
+/// The nodes and segments of all boundaries, which may touch obstacles and each other.
+void add_contact_nodes(Model& model);
+/// Obstacles and their springs.
 void add_obstacles(Model& model, const Case& input);
+/// What holds between the bodies.
+void add_body_pairs(Model& model, const Case& input);
+/// What all these springs and their dashpots add to the bounds on the frequency of elements.
+void limit_contact_steps(Model& model);
 void add_supports(Model& model, const Case& input, const std::vector<Mesh>& meshes);
 void add_loads(Model& model, const Case& input, const std::vector<Mesh>& meshes);
 void add_observers(Model& model, const Case& input, const std::vector<Mesh>& meshes);

@@ -74,6 +74,15 @@ struct LoadCase {
   TimeTable factor = TimeTable::constant(1);
 };
 
+/// What holds between two bodies, or within one, where it is not what [contact] says.
+struct ContactPairCase {
+  std::string body;
+  std::string other;
+  enum class Touch { yes, no } touch = Touch::yes;
+  std::optional<double> friction;
+  std::optional<double> stiffness;  ///< N/m
+};
+
 /// From when to when minima and maxima are taken.
 struct Window {
   double begin = 0;  ///< s
@@ -112,6 +121,7 @@ struct OutputCase {
 struct Case {
   RunSettings run;
   ContactSettings contact;
+  std::vector<ContactPairCase> contact_pairs;
   std::vector<MaterialCase> materials;
   std::vector<BodyCase> bodies;
   std::vector<ObstacleCase> obstacles;

@@ -52,12 +52,41 @@ const Schema<RunSettings>& run_schema() {
   return schema;
 }
 
-const Schema<ContactSettings>& contact_schema() {
-  static const Schema<ContactSettings> schema{
-      .doc = "Contact of all bodies and obstacles.",
-      .keys = {key("damping", &ContactSettings::damping, QuantityKind{dimension::number, {.low = 0, .high = 1}},
-                   "fraction of critical damping of a contact spring on its node; normal direction only",
-                   Need::optional, "0.05")}};
+constexpr QuantityKind friction{dimension::number, limits::not_negative};
+constexpr QuantityKind spring{dimension::stiffness, limits::positive};
+
+const Schema<ContactPairCase>& contact_pair_schema() {
+  using P = ContactPairCase;
+  static const Schema<P> schema{
+      .doc = "Two bodies, or a body and itself, for which something else holds than what `[contact]` says.",
+      .keys = {
+          key("body", &P::body, body_name, "one of them", required),
+          key("other", &P::other, NameKind{"name of a body", "plate"}, "the other one; the same for a body with itself",
+              required),
+          key("touch", &P::touch, WordKind{{"yes", "no"}}, "whether they touch or pass through each other"),
+          key("friction", &P::friction, QuantityOrWordKind{friction, "auto"},
+              "Coulomb's coefficient; automatic: that of `[contact]`", Need::optional, "0.1"),
+          key("stiffness", &P::stiffness, QuantityOrWordKind{spring, "auto"}, "automatic: that of `[contact]`"),
+      }};
+  return schema;
+}
+
+const Schema<Case>& contact_schema() {
+  static const Schema<Case> schema{
+      .doc = "Contact. Every body touches every other one and itself where it folds; obstacles have keys of their own.",
+      .keys = {
+          key_at<Case>(
+              "damping", [](auto& c) -> auto& { return c.contact.damping; },
+              QuantityKind{dimension::number, {.low = 0, .high = 1}},
+              "fraction of critical damping of a contact spring on its node; normal direction only", Need::optional,
+              "0.05"),
+          key_at<Case>(
+              "friction", [](auto& c) -> auto& { return c.contact.friction; }, friction,
+              "Coulomb's coefficient between bodies, sticking and sliding", Need::optional, "0.2"),
+          key_at<Case>(
+              "stiffness", [](auto& c) -> auto& { return c.contact.stiffness; }, QuantityOrWordKind{spring, "auto"},
+              "of the contact spring at each node between bodies; automatic: that of the softer touching element"),
+          key("pairs", &Case::contact_pairs, ListedKind<ContactPairCase>{contact_pair_schema}, "")}};
   return schema;
 }
 
@@ -109,13 +138,12 @@ const Schema<BodyCase>& body_schema() {
 
 const Schema<ObstacleCase>& obstacle_schema() {
   using O = ObstacleCase;
-  constexpr QuantityKind spring{dimension::stiffness, limits::positive};
   static const Schema<O> schema{
       .doc = "A rigid obstacle that every body can strike. `shape` says which other keys there are.",
       .keys =
           {
-              key("friction", &O::friction, QuantityKind{dimension::number, limits::not_negative},
-                  "Coulomb's coefficient, sticking and sliding", Need::optional, "0.35"),
+              key("friction", &O::friction, friction, "Coulomb's coefficient, sticking and sliding", Need::optional,
+                  "0.35"),
               key("stiffness", &O::stiffness, QuantityOrWordKind{spring, "auto"},
                   "of the contact spring at each node; automatic: that of the touching element"),
               key("tangential_stiffness", &O::tangential_stiffness, QuantityOrWordKind{spring, "auto"},
@@ -306,7 +334,7 @@ const Schema<OutputCase>& output_schema() {
 const Schema<Case>& case_schema() {
   static const Schema<Case> schema{.keys = {
                                        key("run", &Case::run, SectionKind<RunSettings>{run_schema}, "", required),
-                                       key("contact", &Case::contact, SectionKind<ContactSettings>{contact_schema}, ""),
+                                       key_at<Case>("contact", std::identity{}, SectionKind<Case>{contact_schema}, ""),
                                        key("materials", &Case::materials, NamedKind<MaterialCase>{material_schema}, ""),
                                        key("bodies", &Case::bodies, NamedKind<BodyCase>{body_schema}, ""),
                                        key("obstacles", &Case::obstacles, NamedKind<ObstacleCase>{obstacle_schema}, ""),

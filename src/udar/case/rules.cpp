@@ -212,6 +212,20 @@ void check_supports(const Case& c, const Known& bodies, Mistakes& mistakes) {
 
 std::string selection_key(const LoadCase& load) { return load.kind == LoadCase::Kind::force ? "nodes" : "edges"; }
 
+void check_contact_pairs(const Case& c, const Known& bodies, Mistakes& mistakes) {
+  std::set<std::pair<std::string, std::string>> seen;
+  for (std::size_t i = 0; i < c.contact_pairs.size(); ++i) {
+    const ContactPairCase& pair = c.contact_pairs[i];
+    const std::string path = join("contact.pairs", std::to_string(i));
+    bodies.check(pair.body, join(path, "body"), mistakes);
+    bodies.check(pair.other, join(path, "other"), mistakes);
+    if (seen.insert(std::minmax(pair.body, pair.other)).second) continue;
+    mistakes.add_unless_touched({join(path, "other"),
+                                 fmt::format("the pair {}, {} stands here twice", pair.body, pair.other),
+                                 "what holds for it must be said once", "put the keys of both into one"});
+  }
+}
+
 void check_loads(const Case& c, const Known& bodies, Mistakes& mistakes) {
   for (const LoadCase& load : c.loads) {
     const std::string path = join("loads", load.name);
@@ -263,6 +277,7 @@ void check_rules(const Case& c, Mistakes& mistakes) {
   for (const ObstacleCase& obstacle : c.obstacles) {
     check_variant(obstacle.shape, join("obstacles", obstacle.name), mistakes);
   }
+  check_contact_pairs(c, bodies, mistakes);
   check_supports(c, bodies, mistakes);
   check_loads(c, bodies, mistakes);
 

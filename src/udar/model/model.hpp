@@ -1,12 +1,15 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "udar/base/array.hpp"
 #include "udar/base/time_table.hpp"
+#include "udar/contact/foot.hpp"
 #include "udar/contact/shapes.hpp"
 #include "udar/material/laws.hpp"
 #include "udar/mesh/blocks.hpp"
@@ -53,6 +56,13 @@ struct Obstacle {
   /// N/m, one for each of Model::contact_nodes.
   std::vector<double> normal_stiffness;
   std::vector<double> tangential_stiffness;
+};
+
+/// What holds between two bodies, or within one.
+struct BodyPair {
+  bool touch = true;
+  double friction = 0;
+  std::optional<double> stiffness;  ///< N/m, of each spring; none: automatic
 };
 
 /// Nodes whose motion is given. Directions not held stay free.
@@ -140,6 +150,20 @@ struct Model {
   std::vector<double> contact_node_sizes;  ///< m, mean length of the two boundary edges at the node
   std::vector<Obstacle> obstacles;
 
+  // Contact of bodies with each other and with themselves. Points are counted as contact_nodes; where nothing may
+  // touch, there are no segments.
+  std::vector<Index> contact_bodies;        ///< body of each contact node
+  std::vector<double> contact_stiffness;    ///< N/m, of the elements at each contact node
+  std::vector<Segment> segments;            ///< body by body
+  std::vector<std::uint32_t> segment_from;  ///< the segment that begins in each contact node
+  std::vector<double> segment_softness;     ///< N/m2, stiffness of the element at each segment for its length
+  /// 1/s2: part of contact_spring of the elements at each contact node that is there for touches of bodies. A spring k
+  /// between points with shares g (1 for one side, 1 in all for the other one) adds at most k |g| (sum of all |g|) / m
+  /// at each: (sum g x)^2 <= (sum |g|) (sum |g| x^2).
+  std::vector<double> contact_allowance;
+  std::vector<BodyPair> body_pairs;  ///< a square table, body by body
+  double contact_margin = 0;         ///< m, how much farther than it must the list of near segments looks
+
   std::vector<Support> supports;
   std::vector<Load> loads;
 
@@ -148,6 +172,17 @@ struct Model {
   std::vector<RegionObserver> observed_regions;
   OutputSettings output;
 
+  /// Position in body_pairs of a contact node and a body.
+  [[nodiscard]] std::size_t pair_of(std::uint32_t point, std::uint32_t body) const {
+    return contact_bodies[point] * bodies.size() + body;
+  }
+  /// Of the spring between a contact node and a segment, N/m: what was given, or half that of the softer side on the
+  /// node's stretch of boundary, since the other side's nodes bring the other half.
+  [[nodiscard]] double touch_stiffness(std::uint32_t point, std::uint32_t segment) const {
+    const auto& given = body_pairs[pair_of(point, segments[segment].body)].stiffness;
+    if (given) return *given;
+    return 0.5 * std::min(contact_stiffness[point], segment_softness[segment] * contact_node_sizes[point]);
+  }
   [[nodiscard]] const Body& body_of_element(Index element) const;
   [[nodiscard]] const Body& body_of_node(Index node) const;
 };

@@ -37,7 +37,9 @@ struct RunSettings {
 };
 
 struct ContactSettings {
-  double damping = 0;  ///< fraction of critical damping of a contact spring on its node; normal direction only
+  double damping = 0;   ///< fraction of critical damping of a contact spring on its node; normal direction only
+  double friction = 0;  ///< Coulomb's coefficient between bodies
+  std::optional<double> stiffness;  ///< N/m, of each spring between bodies; none: automatic
 };
 
 }  // namespace udar

@@ -6,7 +6,7 @@
 
 #include "udar/base/array.hpp"
 #include "udar/base/vec2.hpp"
-#include "udar/contact/penalty.hpp"
+#include "udar/contact/body_touch.hpp"
 #include "udar/mesh/mesh.hpp"
 #include "udar/model/ledger.hpp"
 
@@ -21,12 +21,17 @@ struct alignas(32) NodeRecord {
   double vy = 0;  ///< m/s
 };
 
-/// What one obstacle has done to all bodies together.
-struct ObstacleBook {
+/// What one obstacle has done to all bodies together, or one body to another.
+struct ContactBook {
   ForceBook total;             ///< contact, friction and damping
   ForceBook normal;            ///< contact springs and damping: without friction
   std::uint64_t touching = 0;  ///< nodes now
 };
+
+/// Position of a pair of bodies, or of a body with itself, in State::pairs.
+constexpr std::size_t pair_number(std::size_t a, std::size_t b) {
+  return a < b ? b * (b + 1) / 2 + a : a * (a + 1) / 2 + b;
+}
 
 /// What limits the step.
 struct StepLimit {
@@ -102,7 +107,9 @@ struct State {
   Array<FrequencyBound> frequency;  ///< one for each block of elements
 
   std::vector<SpringState> contacts;  ///< obstacle by obstacle, one for each contact node
-  std::vector<ObstacleBook> obstacles;
+  std::vector<BodyTouch> touches;     ///< of bodies with each other, in the order of points, then of bodies
+  std::vector<ContactBook> obstacles;
+  std::vector<ContactBook> pairs;    ///< forces on the body that comes first in the case; in the order of pair_number
   std::vector<Vec2> load_forces;     ///< N, load by load, node by node
   std::vector<Vec2> support_forces;  ///< N, support by support, node by node
   std::vector<Vec2> body_momentum;   ///< kg m/s, one for each body: sum of m times the velocity over the coming step
@@ -141,7 +148,9 @@ void for_each_field(S& state, Visitor&& visit) {
   visit("flowing", state.flowing);
   visit("frequency", state.frequency);
   visit("contacts", state.contacts);
+  visit("touches", state.touches);
   visit("obstacles", state.obstacles);
+  visit("pairs", state.pairs);
   visit("load_forces", state.load_forces);
   visit("support_forces", state.support_forces);
   visit("body_momentum", state.body_momentum);

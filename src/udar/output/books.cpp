@@ -86,7 +86,7 @@ Observer observe_momentum(const Model&) {
           [](const State& state, std::span<double> out) {
             const Ledger& l = state.ledger;
             Vec2 contact;
-            for (const ObstacleBook& obstacle : state.obstacles) contact += obstacle.total.impulse();
+            for (const ContactBook& obstacle : state.obstacles) contact += obstacle.total.impulse();
             const Vec2 gravity = l.book(ForceKind::gravity).impulse();
             const Vec2 loads = l.book(ForceKind::load).impulse();
             const Vec2 supports = l.book(ForceKind::support).impulse();

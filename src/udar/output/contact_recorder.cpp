@@ -15,10 +15,20 @@ double time_of_part(const std::vector<double>& time, const std::vector<Vec2>& im
 
 }  // namespace
 
-ContactRecorder::ContactRecorder(const Model& model)
-    : model_(model), touches_(model.obstacles.size()), curves_(model.obstacles.size()) {
-  for (const Index node : model.contact_nodes) {
-    body_of_contact_node_.push_back(static_cast<Index>(&model.body_of_node(node) - model.bodies.data()));
+ContactRecorder::ContactRecorder(const Model& model) : model_(model) {
+  for (std::size_t o = 0; o < model.obstacles.size(); ++o) {
+    partners_.push_back({.name = model.obstacles[o].name, .book = o, .touches = {}, .curve = {}});
+  }
+  for (std::size_t second = 0; second < model.bodies.size() && !model.segments.empty(); ++second) {
+    for (std::size_t first = 0; first <= second; ++first) {
+      partners_.push_back({.name = model.bodies[first].name + "/" + model.bodies[second].name,
+                           .book = pair_number(first, second),
+                           .two_bodies = true,
+                           .first = first,
+                           .second = second,
+                           .touches = {},
+                           .curve = {}});
+    }
   }
   for (const Body& body : model.bodies) {
     Vec2& start = last_momentum_.emplace_back();
@@ -27,11 +37,12 @@ ContactRecorder::ContactRecorder(const Model& model)
 }
 
 void ContactRecorder::record(const State& state) {
-  for (std::size_t o = 0; o < model_.obstacles.size(); ++o) {
-    auto& touches = touches_[o];
+  const double time = state.clock.time.value();
+  for (Partners& partners : partners_) {
+    const ContactBook& book = (partners.two_bodies ? state.pairs : state.obstacles)[partners.book];
+    auto& touches = partners.touches;
     const bool lasts = !touches.empty() && !touches.back().over;
-    const double time = state.clock.time.value();
-    if (state.obstacles[o].touching > 0) {
+    if (book.touching > 0) {
       if (!lasts) {
         touches.push_back({.begin = time,
                            .impulse_before = touches.empty() ? Vec2{} : touches.back().impulse_after,
@@ -39,7 +50,7 @@ void ContactRecorder::record(const State& state) {
                            .momentum_before = last_momentum_,
                            .touched = std::vector<bool>(model_.bodies.size())});
       }
-      touch_step(o, state);
+      touch_step(partners, book, state);
     } else if (lasts) {
       touches.back().end = time;
       touches.back().over = true;
@@ -49,21 +60,24 @@ void ContactRecorder::record(const State& state) {
   last_momentum_ = state.body_momentum;
 }
 
-void ContactRecorder::touch_step(std::size_t obstacle, const State& state) {
-  const ObstacleBook& book = state.obstacles[obstacle];
-  Touch& touch = touches_[obstacle].back();
+void ContactRecorder::touch_step(Partners& partners, const ContactBook& book, const State& state) {
+  Touch& touch = partners.touches.back();
   touch.end = state.clock.time.value();
   touch.impulse_after = book.total.impulse();
   touch.normal_after = book.normal.impulse();
   touch.peak_force = std::max(touch.peak_force, length(book.total.force));
   touch.momentum_after = state.body_momentum;
-  const std::size_t first = obstacle * model_.contact_nodes.size();
-  for (std::size_t c = 0; c < model_.contact_nodes.size(); ++c) {
-    if (state.contacts[first + c].touches != 0) touch.touched[body_of_contact_node_[c]] = true;
+  if (partners.two_bodies) {
+    touch.touched[partners.first] = touch.touched[partners.second] = true;
+  } else {
+    const std::size_t first = partners.book * model_.contact_nodes.size();
+    for (std::size_t c = 0; c < model_.contact_nodes.size(); ++c) {
+      if (state.contacts[first + c].touches != 0) touch.touched[model_.contact_bodies[c]] = true;
+    }
   }
 
   constexpr std::size_t most_points = 1 << 16;
-  Curve& curve = curves_[obstacle];
+  Curve& curve = partners.curve;
   if (state.clock.step % curve.every != 0) return;
   curve.time.push_back(touch.end);
   curve.impulse.push_back(touch.impulse_after);
@@ -77,43 +91,53 @@ void ContactRecorder::touch_step(std::size_t obstacle, const State& state) {
   curve.every *= 2;
 }
 
-EpisodeSummary ContactRecorder::episode(std::size_t obstacle, const Touch& first, const Touch& last, double peak,
+EpisodeSummary ContactRecorder::episode(const Partners& partners, const Touch& first, const Touch& last, double peak,
                                         const std::vector<bool>& touched) const {
   EpisodeSummary e{.first_touch = first.begin,
                    .separation = last.over ? last.end : no_number,
                    .duration = last.end - first.begin,
                    .impulse = last.impulse_after - first.impulse_before,
                    .peak_force = peak};
-  double mass = 0;
-  Vec2 before;
-  Vec2 after;
-  for (std::size_t b = 0; b < touched.size(); ++b) {
-    if (!touched[b]) continue;
-    mass += model_.bodies[b].mass;
-    before += first.momentum_before[b];
-    after += last.momentum_after[b];
+  Vec2 moving;
+  if (partners.two_bodies) {
+    const auto relative = [&](const std::vector<Vec2>& momentum) {
+      const auto velocity = [&](std::size_t body) { return (1 / model_.bodies[body].mass) * momentum[body]; };
+      return velocity(partners.first) - velocity(partners.second);
+    };
+    e.velocity_before = relative(first.momentum_before);
+    e.velocity_after = relative(last.momentum_after);
+  } else {
+    double mass = 0;
+    Vec2 before;
+    Vec2 after;
+    for (std::size_t b = 0; b < touched.size(); ++b) {
+      if (!touched[b]) continue;
+      mass += model_.bodies[b].mass;
+      before += first.momentum_before[b];
+      after += last.momentum_after[b];
+    }
+    e.velocity_before = (1 / mass) * before;
+    e.velocity_after = (1 / mass) * after;
+    moving = model_.obstacles[partners.book].velocity;
   }
-  e.velocity_before = (1 / mass) * before;
-  e.velocity_after = (1 / mass) * after;
   // Along the impulse of the normal forces: the direction in which the obstacle pushed.
   const Vec2 push = last.normal_after - first.normal_before;
-  const Vec2 moving = model_.obstacles[obstacle].velocity;
   const double towards = -dot(e.velocity_before - moving, push);
   if (last.over && towards > 0) e.restitution = dot(e.velocity_after - moving, push) / towards;
   return e;
 }
 
-ContactSummary ContactRecorder::summary_of(std::size_t obstacle) const {
-  const auto& touches = touches_[obstacle];
+ContactSummary ContactRecorder::summary_of(const Partners& partners) const {
+  const auto& touches = partners.touches;
   ContactSummary s;
   if (touches.empty()) return s;
   s.first_touch = touches.front().begin;
   if (touches.back().over) s.last_separation = touches.back().end;
   s.duration = touches.back().end - s.first_touch;
   s.impulse = touches.back().impulse_after;
-  if (!curves_[obstacle].time.empty()) {
-    auto time = curves_[obstacle].time;
-    auto impulse = curves_[obstacle].impulse;
+  if (!partners.curve.time.empty()) {
+    auto time = partners.curve.time;
+    auto impulse = partners.curve.impulse;
     time.push_back(touches.back().end);
     impulse.push_back(s.impulse);
     s.duration_99 = time_of_part(time, impulse, 0.99) - s.first_touch;
@@ -130,7 +154,7 @@ ContactSummary ContactRecorder::summary_of(std::size_t obstacle) const {
       for (std::size_t b = 0; b < touched.size(); ++b) touched[b] = touched[b] || touches[last].touched[b];
     }
     s.peak_force = k == 0 ? peak : std::max(s.peak_force, peak);
-    s.episodes.push_back(episode(obstacle, touches[k], touches[last], peak, touched));
+    s.episodes.push_back(episode(partners, touches[k], touches[last], peak, touched));
     k = last + 1;
   }
   return s;
@@ -138,7 +162,10 @@ ContactSummary ContactRecorder::summary_of(std::size_t obstacle) const {
 
 std::map<std::string, ContactSummary> ContactRecorder::summary() const {
   std::map<std::string, ContactSummary> all;
-  for (std::size_t o = 0; o < model_.obstacles.size(); ++o) all[model_.obstacles[o].name] = summary_of(o);
+  for (const Partners& partners : partners_) {
+    // Obstacles that nobody struck are named, bodies that did not meet are not: there are too many pairs.
+    if (!partners.two_bodies || !partners.touches.empty()) all[partners.name] = summary_of(partners);
+  }
   return all;
 }
 

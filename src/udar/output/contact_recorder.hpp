@@ -10,7 +10,7 @@
 
 namespace udar {
 
-/// Follows the touches of every obstacle: when, how long, how hard, and what came of it.
+/// Follows the touches of every obstacle and every pair of bodies: when, how long, how hard, and what came of it.
 class ContactRecorder {
  public:
   explicit ContactRecorder(const Model& model);
@@ -40,15 +40,23 @@ class ContactRecorder {
     std::vector<Vec2> impulse;  ///< N s
     std::uint64_t every = 1;    ///< steps between two points
   };
-  void touch_step(std::size_t obstacle, const State& state);
-  [[nodiscard]] EpisodeSummary episode(std::size_t obstacle, const Touch& first, const Touch& last, double peak,
+  /// An obstacle with all bodies, or two bodies.
+  struct Partners {
+    std::string name;
+    std::size_t book = 0;  ///< in State::obstacles or State::pairs
+    bool two_bodies = false;
+    std::size_t first = 0;  ///< bodies
+    std::size_t second = 0;
+    std::vector<Touch> touches;
+    Curve curve;
+  };
+  void touch_step(Partners& partners, const ContactBook& book, const State& state);
+  [[nodiscard]] EpisodeSummary episode(const Partners& partners, const Touch& first, const Touch& last, double peak,
                                        const std::vector<bool>& touched) const;
-  [[nodiscard]] ContactSummary summary_of(std::size_t obstacle) const;
+  [[nodiscard]] ContactSummary summary_of(const Partners& partners) const;
 
   const Model& model_;
-  std::vector<Index> body_of_contact_node_;
-  std::vector<std::vector<Touch>> touches_;  ///< by obstacle
-  std::vector<Curve> curves_;
+  std::vector<Partners> partners_;
   std::vector<Vec2> last_momentum_;  ///< kg m/s, body by body, before the step
 };
 

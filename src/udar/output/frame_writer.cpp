@@ -62,12 +62,16 @@ VtuField node_vectors(const Model& model, const char* quantity, const char* unit
                         [value](std::size_t i) { return value(static_cast<Index>(i)); });
 }
 
-/// Contact forces at the contact nodes, all obstacles together, N. They stand in the order of the nodes.
+/// Contact forces at the contact nodes, of all obstacles and bodies together, N. They stand in the order of the nodes.
 std::vector<Vec2> contact_forces(const Model& model, const State& state) {
   std::vector<Vec2> force(model.contact_nodes.size());
   for (std::size_t k = 0; k < state.contacts.size(); ++k) {
     const SpringState& s = state.contacts[k];
     force[k % force.size()] += s.normal_force + s.friction_force + s.damping_force;
+  }
+  for (const BodyTouch& touch : state.touches) {
+    for_each_force(model.segments, touch,
+                   [&](std::uint32_t point, const TouchForces& f) { force[point] += f.total(); });
   }
   return force;
 }

@@ -137,7 +137,7 @@ Observer observe_obstacle(const Model& model, std::size_t obstacle) {
           {{"force_x", "N"}, {"force_y", "N"}, {"impulse_x", "N s"}, {"impulse_y", "N s"}, {"touching_nodes", ""}},
           always,
           [obstacle](const State& state, std::span<double> out) {
-            const ObstacleBook& book = state.obstacles[obstacle];
+            const ContactBook& book = state.obstacles[obstacle];
             const Vec2 impulse = book.total.impulse();
             const std::array values{book.total.force.x, book.total.force.y, impulse.x, impulse.y,
                                     static_cast<double>(book.touching)};

@@ -39,7 +39,7 @@ MomentumSummary momentum_of(const State& state) {
                     .loads = l.book(ForceKind::load).impulse(),
                     .supports = l.book(ForceKind::support).impulse(),
                     .damping = l.book(ForceKind::damping).impulse()};
-  for (const ObstacleBook& obstacle : state.obstacles) s.obstacles += obstacle.total.impulse();
+  for (const ContactBook& obstacle : state.obstacles) s.obstacles += obstacle.total.impulse();
   s.error = s.end - s.start - s.obstacles - s.gravity - s.loads - s.supports - s.damping;
   return s;
 }

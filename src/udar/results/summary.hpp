@@ -113,7 +113,9 @@ struct Summary {
   LedgerSummary ledger;
   MomentumSummary momentum;
   std::map<std::string, std::map<std::string, HistorySummary>> histories;  ///< by observer, then quantity
-  std::map<std::string, ContactSummary> contacts;                          ///< by obstacle
+  /// By obstacle, and by pair of bodies, "hammer/anvil": then forces on the first of them, velocities against the
+  /// second.
+  std::map<std::string, ContactSummary> contacts;
 };
 
 std::string to_json(const Summary& summary);

@@ -36,6 +36,16 @@ void hold(const Model& model, State& state, const HeldNode& held, NodeSums& sums
   if (y) record.vy = held.velocity.y;
 }
 
+/// Velocities of the coming step that the contact nodes of a block have, m/s.
+Box velocities_at(const Model& model, const State& state, const OuterNodes& nodes) {
+  Box box;
+  for (std::size_t c = nodes.contact_begin; c < nodes.contact_end; ++c) {
+    const NodeRecord& r = state.nodes[model.contact_nodes[c]];
+    box.include({r.vx, r.vy});
+  }
+  return box;
+}
+
 /// What all blocks of nodes have in common.
 NodeTask common_task(const Model& model, const State& state) {
   const Clock& clock = state.clock;
@@ -78,6 +88,7 @@ void accelerate_nodes(const Model& model, State& state, Workspace& work, std::si
   if (task.damping > 0) task.damping_reference = damping_reference(model, state, block.body);
   work.node_sums[b] = kernel(task);
   for (std::size_t k = outer.held_begin; k < outer.held_end; ++k) hold(model, state, work.held[k], work.node_sums[b]);
+  if (!model.segments.empty()) work.bodies.velocities[b] = velocities_at(model, state, outer);
 }
 
 }  // namespace udar

@@ -42,6 +42,10 @@ ContactSums touch_obstacle(const Model& model, const State& state, const Obstacl
 void add_contact_force(const Model& model, State& state, Workspace& work, std::size_t b, NodeForces& forces) {
   const std::size_t blocks = model.node_blocks.size();
   const OuterNodes& nodes = work.outer_nodes[b];
+  for (std::size_t c = nodes.contact_begin; work.bodies.pushes && c < nodes.contact_end; ++c) {
+    const Vec2 force = work.bodies.forces[c];
+    if (force != Vec2{}) forces.push(model.contact_nodes[c], force);
+  }
   SpringState* springs = state.contacts.data();
   for (std::size_t o = 0; o < model.obstacles.size(); ++o, springs += model.contact_nodes.size()) {
     const Obstacle& obstacle = model.obstacles[o];
@@ -59,18 +63,22 @@ void enter_springs(const Model& model, State& state, const Workspace& work) {
   ledger.contact_energy = 0;
   ledger.tangential_energy = 0;
   SpringLosses losses;
+  const auto enter = [&](const ContactSums& sums) {
+    ledger.contact_energy += sums.normal_energy;
+    ledger.tangential_energy += sums.tangential_energy;
+    losses.friction += sums.losses.friction;
+    losses.dropped += sums.losses.dropped;
+    state.largest_penetration = std::max(state.largest_penetration, sums.largest_penetration);
+  };
   const ContactSums* sums = work.contact_sums.data();
   for (std::size_t o = 0; o < model.obstacles.size(); ++o) {
     state.obstacles[o].touching = 0;
     for (std::size_t b = 0; b < model.node_blocks.size(); ++b, ++sums) {
       state.obstacles[o].touching += sums->touching;
-      ledger.contact_energy += sums->normal_energy;
-      ledger.tangential_energy += sums->tangential_energy;
-      losses.friction += sums->losses.friction;
-      losses.dropped += sums->losses.dropped;
-      state.largest_penetration = std::max(state.largest_penetration, sums->largest_penetration);
+      enter(*sums);
     }
   }
+  for (const ContactSums& pair : work.bodies.sums) enter(pair);
   ledger.friction_work.add(losses.friction);
   ledger.dropped_energy.add(losses.dropped);
 }

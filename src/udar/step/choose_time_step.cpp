@@ -20,7 +20,7 @@ constexpr double shortest_step = 1e-12;
 /// (h^2 w2 + 2 h c) = 4 for central difference, scaled for integrators with another limit on w h.
 double stable_step(double w2, double c, double limit) { return 0.5 * limit * (std::sqrt(c * c + 4 * w2) - c) / w2; }
 
-StepLimit stable_limit(const Model& model, const State& state) {
+StepLimit stable_limit(const Model& model, const State& state, const BodyContact& bodies) {
   // An integrator that is never stable is judged by the limit of central difference.
   const double rule_limit = rule_of(model.run.integrator).stable_limit;
   const double limit = rule_limit > 0 ? rule_limit : 2;
@@ -33,11 +33,13 @@ StepLimit stable_limit(const Model& model, const State& state) {
     const FrequencyBound& bound = state.frequency[b];
     const double own_dashpot = model.element_blocks[b].dashpot;
     if (bound.squared <= w2 && own_dashpot <= dashpot) continue;
-    const double size = stable_step(bound.squared, damping + own_dashpot, limit);
+    const double size = stable_step(bound.squared + bodies.excess, damping + own_dashpot + bodies.dashpot, limit);
     if (!(size < found.size)) continue;
     w2 = bound.squared;
     dashpot = own_dashpot;
-    found = {.size = size, .element = bound.element, .by_contact = model.contact_spring[bound.element] > 0 ? 1U : 0U};
+    found = {.size = size,
+             .element = bound.element,
+             .by_contact = model.contact_spring[bound.element] + bodies.excess > 0 ? 1U : 0U};
   }
   return found;
 }
@@ -122,9 +124,9 @@ void refuse_unusable_step(const Model& model, const State& state) {
 
 }  // namespace
 
-void choose_time_step(const Model& model, State& state) {
+void choose_time_step(const Model& model, State& state, const Workspace& work) {
   Clock& clock = state.clock;
-  clock.limit = stable_limit(model, state);
+  clock.limit = stable_limit(model, state, work.bodies);
   clock.compute_above = next_threshold(state);
   if (clock.step == 0) {
     refuse_unusable_step(model, state);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "udar/step/account.hpp"
 #include "udar/step/failure.hpp"
 #include "udar/step/integrators.hpp"
 #include "udar/step/motion.hpp"
@@ -8,25 +9,6 @@
 
 namespace udar {
 namespace {
-
-/// Forces of one kind now, and their power with the velocities of the last and of the coming step.
-struct Account {
-  Vec2 force{};
-  double power_before = 0;
-  double power_after = 0;
-
-  void add(Vec2 f, Vec2 before, Vec2 after) {
-    force += f;
-    power_before += dot(f, before);
-    power_after += dot(f, after);
-  }
-  Account& operator+=(const Account& other) {
-    force += other.force;
-    power_before += other.power_before;
-    power_after += other.power_after;
-    return *this;
-  }
-};
 
 /// How forces at t_n enter the books of the integrator in use.
 class Booking {
@@ -73,8 +55,40 @@ class Booking {
   double after_ = 0;
 };
 
-/// Contact forces, obstacle by obstacle; returns the account of the moving obstacles' own work.
-Account enter_contacts(const Model& model, State& state, const Workspace& work, const Booking& booking) {
+/// Forces between bodies, in the books of their pairs and in those of all contact.
+void enter_touches(const Model& model, State& state, Workspace& work, const Booking& booking, Account& normal,
+                   Account& friction, Account& damping) {
+  std::vector<PairForces>& pairs = work.bodies.pair_forces;
+  std::fill(pairs.begin(), pairs.end(), PairForces{});
+  for (const BodyTouch& touch : state.touches) {
+    for_each_force(model.segments, touch, [&](std::uint32_t point, const TouchForces& forces) {
+      const Vec2 before = booking.before(model.contact_nodes[point]);
+      const Vec2 after = booking.after(model.contact_nodes[point]);
+      normal.add(forces.normal, before, after);
+      friction.add(forces.friction, before, after);
+      damping.add(forces.damping, before, after);
+    });
+    const Index body = model.contact_bodies[touch.point];
+    const double sign = body <= touch.body ? 1 : -1;
+    PairForces& pair = pairs[pair_number(body, touch.body)];
+    const Vec2 pressing = touch.springs.normal_force + touch.springs.damping_force;
+    pair.pressing.force += sign * pressing;
+    pair.total.force += sign * (pressing + touch.springs.friction_force);
+    ++pair.touching;
+  }
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    ContactBook& book = state.pairs[k];
+    // Of pairs that have nothing to do with each other there may be very many.
+    const bool idle = pairs[k].touching == 0 && book.touching == 0 && book.total.past == ForceBook{}.past;
+    book.touching = pairs[k].touching;
+    if (idle) continue;
+    booking.enter(pairs[k].total, book.total);
+    booking.enter(pairs[k].pressing, book.normal);
+  }
+}
+
+/// Contact forces, obstacle by obstacle and touch by touch; returns the account of the moving obstacles' own work.
+Account enter_contacts(const Model& model, State& state, Workspace& work, const Booking& booking) {
   Account normal, friction, damping, obstacle_work;
   const std::size_t count = model.contact_nodes.size();
   const std::size_t blocks = model.node_blocks.size();
@@ -100,6 +114,7 @@ Account enter_contacts(const Model& model, State& state, const Workspace& work, 
     booking.enter(pressing, state.obstacles[o].normal);
     obstacle_work.add(total.force, velocity, velocity);
   }
+  enter_touches(model, state, work, booking, normal, friction, damping);
   booking.enter(normal, state.ledger.book(ForceKind::contact));
   booking.enter(friction, state.ledger.book(ForceKind::friction));
   booking.enter(damping, state.ledger.book(ForceKind::contact_damping));

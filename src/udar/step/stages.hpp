@@ -11,8 +11,9 @@ namespace udar {
 void advance_clock(const Model& model, State& state);
 void set_loads(const Model& model, State& state);
 void set_supports(const Model& model, const State& state, Workspace& work);
+void touch_bodies(const Model& model, State& state, Workspace& work);
 void sweep(const Model& model, State& state, Workspace& work);
-void choose_time_step(const Model& model, State& state);
+void choose_time_step(const Model& model, State& state, const Workspace& work);
 void close_books(const Model& model, State& state, Workspace& work);
 
 // Parts of the sweep, for one block of elements or of nodes.
@@ -28,6 +29,7 @@ void enter_springs(const Model& model, State& state, const Workspace& work);
 // Only at the start.
 void find_frequencies(const Model& model, State& state, Workspace& work);
 State rest_state(const Model& model);
+void refuse_overlapping_bodies(const Model& model);
 void refuse_buried_nodes(const Model& model, const State& state);
 void open_books(const Model& model, State& state);
 

@@ -1,5 +1,9 @@
 #include <fmt/core.h>
 
+#include <cmath>
+#include <limits>
+
+#include "udar/base/box.hpp"
 #include "udar/base/error.hpp"
 #include "udar/step/integrators.hpp"
 #include "udar/step/stages.hpp"
@@ -28,6 +32,7 @@ State rest_state(const Model& model) {
   state.frequency.resize(model.element_blocks.size());
   state.contacts.resize(model.obstacles.size() * model.contact_nodes.size());
   state.obstacles.resize(model.obstacles.size());
+  if (!model.segments.empty()) state.pairs.resize(pair_number(model.bodies.size(), 0));
   std::size_t loaded = 0;
   for (const Load& load : model.loads) loaded += load.nodes.size();
   state.load_forces.resize(loaded);
@@ -40,10 +45,53 @@ State rest_state(const Model& model) {
   return state;
 }
 
+namespace {
+
+/// A body may start at rest on its springs, a small part of an element deep; more is a body put in the wrong place,
+/// which its springs would shoot off.
+constexpr double deepest_start = 0.2;
+
+/// How deep a point lies in a body at t = 0, m; 0 outside.
+double depth_in(const Model& model, Vec2 p, std::size_t body) {
+  const auto place = [&](std::uint32_t point) { return model.rest[model.contact_nodes[point]]; };
+  bool inside = false;  // by how often a ray to the right crosses the boundary
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::uint32_t s = 0; s < model.segments.size(); ++s) {
+    if (model.segments[s].body != body) continue;
+    const Vec2 a = place(model.segments[s].a);
+    const Vec2 b = place(model.segments[s].b);
+    if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
+    nearest = std::min(nearest, std::fabs(foot_on(model.segments, s, p, place).distance));
+  }
+  return inside ? nearest : 0;
+}
+
+}  // namespace
+
+void refuse_overlapping_bodies(const Model& model) {
+  std::vector<Box> boxes(model.bodies.size());
+  for (std::size_t c = 0; c < model.contact_nodes.size(); ++c) {
+    boxes[model.contact_bodies[c]].include(model.rest[model.contact_nodes[c]]);
+  }
+  for (std::uint32_t c = 0; c < model.contact_nodes.size(); ++c) {
+    const Vec2 place = model.rest[model.contact_nodes[c]];
+    for (std::uint32_t other = 0; other < model.bodies.size(); ++other) {
+      if (other == model.contact_bodies[c] || !model.body_pairs[model.pair_of(c, other)].touch) continue;
+      if (!boxes[other].holds(place)) continue;
+      const double depth = depth_in(model, place, other);
+      if (depth <= deepest_start * model.contact_node_sizes[c]) continue;
+      throw UserError(
+          ExitCode::bad_case,
+          fmt::format(
+              "bodies `{}` and `{}` overlap: a node of the first at ({:.5g}, {:.5g}) m is {:.4g} m deep in the second",
+              model.bodies[model.contact_bodies[c]].name, model.bodies[other].name, place.x, place.y, depth),
+          "move one of them (`at` of its mesh), or let them pass through each other: [[contact.pairs]] with touch = "
+          "\"no\"");
+    }
+  }
+}
+
 void refuse_buried_nodes(const Model& model, const State& state) {
-  // A block may start at rest on its springs, a small part of an element deep; more is a body put in the wrong place,
-  // which its springs would shoot off.
-  constexpr double deepest = 0.2;
   const std::size_t count = model.contact_nodes.size();
   std::size_t worst = 0;
   double ratio = 0;
@@ -53,7 +101,7 @@ void refuse_buried_nodes(const Model& model, const State& state) {
     ratio = here;
     worst = k;
   }
-  if (ratio <= deepest) return;
+  if (ratio <= deepest_start) return;
   const Index node = model.contact_nodes[worst % count];
   const Vec2 place = model.rest[node];
   throw UserError(ExitCode::bad_case,

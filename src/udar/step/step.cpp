@@ -23,17 +23,19 @@ void sweep(const Model& model, State& state, Workspace& work) {
 }
 
 void step(const Model& model, State& state, Workspace& work) {
-  advance_clock(model, state);       // t_{n+1}, with the step that is already under way
-  set_loads(model, state);           // forces at t_{n+1}
-  set_supports(model, state, work);  // where held nodes have to be at t_{n+2}
-  sweep(model, state, work);         // all bodies from t_n to t_{n+1}
-  choose_time_step(model, state);    // is h_{n+2} still safe? h_{n+3}, and who limits it
-  close_books(model, state, work);   // energy, momentum, spin; is everything still finite?
+  advance_clock(model, state);           // t_{n+1}, with the step that is already under way
+  set_loads(model, state);               // forces at t_{n+1}
+  set_supports(model, state, work);      // where held nodes have to be at t_{n+2}
+  touch_bodies(model, state, work);      // with each other and with themselves, at x_{n+1}
+  sweep(model, state, work);             // all bodies from t_n to t_{n+1}
+  choose_time_step(model, state, work);  // is h_{n+2} still safe? h_{n+3}, and who limits it
+  close_books(model, state, work);       // energy, momentum, spin; is everything still finite?
 }
 
 void prepare(const Model& model, State& state, Workspace& work) {
   find_frequencies(model, state, work);
-  choose_time_step(model, state);
+  touch_bodies(model, state, work);
+  choose_time_step(model, state, work);
   open_books(model, state);
   set_loads(model, state);
   set_supports(model, state, work);
@@ -42,6 +44,7 @@ void prepare(const Model& model, State& state, Workspace& work) {
 }
 
 State start(const Model& model, Workspace& work) {
+  refuse_overlapping_bodies(model);
   State state = rest_state(model);
   prepare(model, state, work);
   refuse_buried_nodes(model, state);

@@ -25,10 +25,21 @@ void sort_by_node(std::vector<Entry>& entries) {
 
 }  // namespace
 
+BodyContact::BodyContact(const Model& model) : velocities(model.node_blocks.size()), sums(model.body_pairs.size()) {
+  if (model.segments.empty()) return;
+  const std::size_t points = model.contact_nodes.size();
+  places.resize(points);
+  forces.resize(points);
+  springs.resize(points);
+  dashpots.resize(points);
+  pair_forces.resize(pair_number(model.bodies.size(), 0));
+}
+
 Workspace::Workspace(const Model& model, int threads)
     : pool(threads),
       forces(model, pool),
       contact_sums(model.obstacles.size() * model.node_blocks.size()),
+      bodies(model),
       element_sums(model.element_blocks.size()),
       node_sums(model.node_blocks.size()),
       support_motions(model.supports.size()) {

@@ -2,8 +2,12 @@
 
 #include <vector>
 
+#include "udar/base/box.hpp"
+#include "udar/contact/search.hpp"
 #include "udar/model/model.hpp"
+#include "udar/model/state.hpp"
 #include "udar/parallel/for_each.hpp"
+#include "udar/step/account.hpp"
 #include "udar/step/block_kernels.hpp"
 #include "udar/step/quad_forces.hpp"
 
@@ -48,6 +52,34 @@ struct OuterNodes {
   std::size_t held_end = 0;
 };
 
+/// Forces between two bodies, on the one that comes first in the case.
+struct PairForces {
+  Account total;
+  Account pressing;  ///< without friction
+  std::uint64_t touching = 0;
+};
+
+/// Contact of bodies with each other, in one step.
+struct BodyContact {
+  BodyContact(const Model& model);
+
+  Neighbours near;  ///< segments near each point, not its own
+  bool listed = false;
+  std::uint64_t step = 0;                 ///< in which the list was last looked after
+  double travel = 0;                      ///< m, by which points and segments may have come nearer since it was made
+  double moved = 0;                       ///< m, the same in this step
+  std::vector<Box> velocities;            ///< m/s, of the contact nodes of each block of nodes
+  bool pushes = false;                    ///< there may be forces
+  std::vector<Vec2> places;               ///< m, of the points at the end of the step
+  std::vector<Vec2> forces;               ///< N, on each point
+  std::vector<double> springs, dashpots;  ///< N/m and N s/m, what they add to the bounds at each point
+  std::vector<BodyTouch> found;
+  std::vector<ContactSums> sums;        ///< one for each of Model::body_pairs
+  std::vector<PairForces> pair_forces;  ///< in the order of pair_number
+  double excess = 0;                    ///< 1/s2, of their bound on frequency^2 above what elements allow for
+  double dashpot = 0;                   ///< 1/s
+};
+
 /// Room for what a step computes and forgets, and the threads that compute it. Nothing here is State.
 struct Workspace {
   Workspace(const Model& model, int threads);
@@ -57,6 +89,7 @@ struct Workspace {
   QuadForces forces;
   std::vector<OuterNodes> outer_nodes;    ///< one for each block of nodes
   std::vector<ContactSums> contact_sums;  ///< obstacle by obstacle, one for each block of nodes
+  BodyContact bodies;
   std::vector<ElementSums> element_sums;
   std::vector<NodeSums> node_sums;
   std::vector<LoadedNode> loaded;  ///< in the order of nodes

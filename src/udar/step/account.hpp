@@ -1,0 +1,26 @@
+#pragma once
+
+#include "udar/base/vec2.hpp"
+
+namespace udar {
+
+/// Forces of one kind now, and their power with the velocities of the last and of the coming step.
+struct Account {
+  Vec2 force{};
+  double power_before = 0;
+  double power_after = 0;
+
+  void add(Vec2 f, Vec2 before, Vec2 after) {
+    force += f;
+    power_before += dot(f, before);
+    power_after += dot(f, after);
+  }
+  Account& operator+=(const Account& other) {
+    force += other.force;
+    power_before += other.power_before;
+    power_after += other.power_after;
+    return *this;
+  }
+};
+
+}  // namespace udar

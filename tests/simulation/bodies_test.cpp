@@ -1,0 +1,213 @@
+// Contact of bodies with each other: what must hold exactly, or to rounding.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/simulation/example.hpp"
+#include "udar/case/build_model.hpp"
+#include "udar/step/step.hpp"
+
+namespace udar {
+namespace {
+
+const Elastic elastic{.young_modulus = 196e9, .poisson_ratio = 0.25};
+const Tresca plastic{.young_modulus = 196e9, .poisson_ratio = 0.25, .yield_stress = 235e6};
+
+BodyCase block(const char* name, Vec2 at, Vec2 size, double element_size, Vec2 velocity) {
+  return {.name = name,
+          .material = "steel",
+          .thickness = 0.01,
+          .velocity = velocity,
+          .mesh = RectangleMesh{.size = size, .at = at, .element_size = element_size}};
+}
+
+/// Two blocks of different meshes meet at an angle, rub, spin and fly apart.
+Case two_blocks(const Law& law, double friction) {
+  return {.run = {.end_time = 500e-6},
+          .contact = {.friction = friction},
+          .materials = {{.name = "steel", .density = 7850, .law = law}},
+          .bodies = {block("lower", {-0.02, 0}, {0.04, 0.02}, 0.0025, {0, 20}),
+                     block("upper", {0.005, 0.0201}, {0.03, 0.01}, 0.002, {-15, -40})}};
+}
+
+struct Totals {
+  Vec2 momentum{};
+  double spin = 0;
+  double size = 0;  ///< sum of |m x cross v|, of |m v|
+};
+
+Totals totals(const Model& model, const State& state) {
+  Totals t;
+  for (Index i = 0; i < model.node_count; ++i) {
+    const NodeRecord& r = state.nodes[i];
+    const Vec2 p = model.mass[i] * Vec2{r.vx, r.vy};
+    t.momentum += p;
+    t.spin += cross(Vec2{r.x, r.y}, p);
+    t.size += length(p);
+  }
+  return t;
+}
+
+}  // namespace
+
+TEST_CASE("two bodies strike, rub and part: momentum and spin stay, the books close") {
+  for (const Law& law : {Law(elastic), Law(plastic)}) {
+    for (const double friction : {0.0, 0.3}) {
+      CAPTURE(friction);
+      const Model model = build_model(two_blocks(law, friction));
+      Workspace work(model, 1);
+      State state = start(model, work);
+      const Totals before = totals(model, state);
+      std::size_t most = 0;
+      double spin_drift = 0;
+      double momentum_drift = 0;
+      while (!finished(model, state)) {
+        step(model, state, work);
+        most = std::max(most, state.touches.size());
+        const Totals now = totals(model, state);
+        spin_drift = std::max(spin_drift, std::fabs(now.spin - before.spin));
+        momentum_drift = std::max(momentum_drift, length(now.momentum - before.momentum));
+      }
+      CHECK(most > 3);
+      CHECK(state.touches.empty());
+      CHECK(momentum_drift < 1e-12 * before.size);
+      CHECK(spin_drift < 1e-12 * before.size * 0.03);
+      CHECK(state.ledger.energy_error() < 5e-3);
+      CHECK(state.ledger.identity_error() < 1e-11);
+      CHECK(state.largest_penetration < 0.05);
+      CHECK((state.ledger.friction_work.value() > 0) == (friction > 0));
+      CHECK(std::fabs(state.body_momentum[0].y / model.bodies[0].mass - 20) > 10);
+    }
+  }
+}
+
+TEST_CASE("which body is named first changes nothing but rounding") {
+  Case one = two_blocks(elastic, 0.3);
+  one.run.time_step = 1e-7;
+  one.run.end_time = 60e-6;
+  Case two = one;
+  std::swap(two.bodies[0], two.bodies[1]);
+  const Model models[] = {build_model(one), build_model(two)};
+  State ends[2];
+  for (int k = 0; k < 2; ++k) {
+    Workspace work(models[k], 1);
+    ends[k] = start(models[k], work);
+    while (!finished(models[k], ends[k])) step(models[k], ends[k], work);
+  }
+  for (const int body : {0, 1}) {
+    const Vec2 a = ends[0].body_momentum[static_cast<std::size_t>(body)];
+    const Vec2 b = ends[1].body_momentum[static_cast<std::size_t>(1 - body)];
+    CHECK(length(a - b) < 1e-9 * length(a));
+  }
+}
+
+namespace {
+
+/// How far a body that meets its mirror image gets from one that meets a frictionless wall, m.
+double apart_from_wall(const Law& law, double end_time) {
+  Case wall{.run = {.end_time = end_time, .time_step = 5e-8},
+            .materials = {{.name = "steel", .density = 7850, .law = law}},
+            .bodies = {block("right", {0, -0.01}, {0.03, 0.02}, 0.0025, {-40, 0})},
+            .obstacles = {{.name = "wall", .shape = HalfPlane{.normal = {1, 0}}}}};
+  std::get<RectangleMesh>(wall.bodies[0].mesh).diagonals = RectangleMesh::Diagonals::crossed;
+  Case pair = wall;
+  pair.obstacles.clear();
+  pair.bodies.push_back(block("left", {-0.03, -0.01}, {0.03, 0.02}, 0.0025, {40, 0}));
+  std::get<RectangleMesh>(pair.bodies[1].mesh).diagonals = RectangleMesh::Diagonals::crossed;
+  Model alone = build_model(wall);
+  const Model both = build_model(pair);
+  // A node is pushed by its own spring and by that of the node opposite, each half as stiff as one to the wall and
+  // pressed twice as far.
+  for (auto* k : {&alone.obstacles[0].normal_stiffness, &alone.obstacles[0].tangential_stiffness}) {
+    for (double& value : *k) value *= 2;
+  }
+  Workspace one(alone, 1), two(both, 1);
+  State a = start(alone, one), b = start(both, two);
+  double apart = 0;
+  while (!finished(alone, a)) {
+    step(alone, a, one);
+    step(both, b, two);
+    for (Index i = 0; i < alone.node_count; ++i) {
+      apart = std::max(apart, std::hypot(a.nodes[i].x - b.nodes[i].x, a.nodes[i].y - b.nodes[i].y));
+    }
+  }
+  CHECK(a.obstacles[0].total.impulse().x > 0);
+  return apart;
+}
+
+}  // namespace
+
+TEST_CASE("two equal bodies head-on are as one against a frictionless wall") {
+  // To rounding as long as the fronts are flat. In their corners springs are as stiff as elsewhere on half the mass:
+  // soon a front has a slope of 1e-3 there and pushes the other one aside by as much of the depth, 1e-5 m; a wall does
+  // not.
+  for (const Law& law : {Law(elastic), Law(plastic)}) {
+    CHECK(apart_from_wall(law, 0.2e-6) < 1e-17);
+    CHECK(apart_from_wall(law, 2e-6) < 1e-8);
+  }
+  CHECK(apart_from_wall(elastic, 40e-6) < 1e-7);
+  CHECK(apart_from_wall(plastic, 40e-6) < 1e-6);
+}
+
+TEST_CASE("any number of threads gives the same bits, also where bodies touch") {
+  Case input = two_blocks(plastic, 0.3);
+  std::get<RectangleMesh>(input.bodies[0].mesh).element_size = 0.001;
+  input.run.end_time = 30e-6;
+  const Model model = build_model(input);
+  std::uint64_t first = 0;
+  for (const int threads : {1, 2, 3, 7}) {
+    Workspace work(model, threads);
+    State state = start(model, work);
+    while (!finished(model, state)) step(model, state, work);
+    CHECK(!state.touches.empty());
+    if (threads == 1) first = hash_of(state);
+    CHECK(hash_of(state) == first);
+  }
+}
+
+TEST_CASE("a body folds onto itself: its arms strike each other") {
+  // A block with a slot is made from two bodies' worth of steel by a ring that is crushed flat between two blocks.
+  Case input{
+      .run = {.end_time = 4e-3, .stop_at_energy_error = 0.05},
+      .contact = {.friction = 0.1},
+      .materials = {{.name = "steel", .density = 7850, .law = plastic},
+                    {.name = "soft",
+                     .density = 7850,
+                     .law = Tresca{.young_modulus = 20e9, .poisson_ratio = 0.3, .yield_stress = 60e6}}},
+      .bodies = {{.name = "ring",
+                  .material = "soft",
+                  .thickness = 0.01,
+                  .mesh =
+                      RingMesh{.outer_radius = 0.02, .inner_radius = 0.017, .at = {0, 0.0205}, .element_size = 0.0015}},
+                 block("hammer", {-0.03, 0.041}, {0.06, 0.01}, 0.005, {0, -30})},
+      .obstacles = {{.name = "anvil", .shape = HalfPlane{}, .friction = 0.1}}};
+  const Model model = build_model(input);
+  Workspace work(model, 1);
+  State state = start(model, work);
+  bool itself = false;
+  while (!finished(model, state)) {
+    step(model, state, work);
+    for (const BodyTouch& touch : state.touches)
+      itself = itself || (touch.body == 0 && model.contact_bodies[touch.point] == 0);
+  }
+  CHECK(itself);
+  CHECK(state.ledger.energy_error() < 1e-2);
+  // No point of the ring has gone through its other side: the loops of inner and outer boundary keep their order.
+  CHECK(state.largest_penetration < 0.5);
+}
+
+TEST_CASE("bodies that are not to touch pass through each other") {
+  Case input = two_blocks(elastic, 0.3);
+  input.contact_pairs = {{.body = "upper", .other = "lower", .touch = ContactPairCase::Touch::no}};
+  const Model model = build_model(input);
+  Workspace work(model, 1);
+  State state = start(model, work);
+  while (!finished(model, state)) {
+    step(model, state, work);
+    REQUIRE(state.touches.empty());
+  }
+}
+
+}  // namespace udar
