@@ -93,6 +93,21 @@ TEST_CASE("the gap is the distance to the boundary") {
   }
 }
 
+TEST_CASE("a shape holds the points whose gap is below 0") {
+  for (const Shape& shape : shapes) {
+    std::visit(
+        [&](const auto& prepared) {
+          int inside = 0;
+          for (const Vec2 p : places(prepared)) {
+            CHECK(prepared.holds(p) == (prepared.gap(p).distance < 0));
+            inside += prepared.holds(p) ? 1 : 0;
+          }
+          CHECK(inside > 0);
+        },
+        prepare(shape));
+  }
+}
+
 TEST_CASE("the normal is the gradient of the gap") {
   for (const Shape& shape : shapes) {
     const PreparedShape ready = prepare(shape);

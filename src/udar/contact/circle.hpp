@@ -19,6 +19,7 @@ struct PreparedCircle {
     // In the very centre every direction is as good; one must be taken.
     return {r - radius, r > 0 ? (1 / r) * from_centre : Vec2{0, 1}, 0};
   }
+  [[nodiscard]] bool holds(Vec2 p) const { return dot(p - centre, p - centre) <= radius * radius; }
   /// A closed polygon of 96 sides.
   [[nodiscard]] std::vector<Polyline> outline(const Box& view) const;
   [[nodiscard]] Box bounds() const { return {centre - Vec2{radius, radius}, centre + Vec2{radius, radius}}; }

@@ -14,6 +14,7 @@ struct PreparedHalfPlane {
   Vec2 normal{0, 1};  ///< unit vector out of the obstacle
 
   [[nodiscard]] Gap gap(Vec2 p) const { return {dot(normal, p - point), normal, 0}; }
+  [[nodiscard]] bool holds(Vec2 p) const { return dot(normal, p - point) <= 0; }
   /// The stretch of the line in the view; none where it does not cross the view.
   [[nodiscard]] std::vector<Polyline> outline(const Box& view) const;
   /// The plane on the obstacle's side where the line runs along an axis, else everything.

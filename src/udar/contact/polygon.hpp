@@ -18,6 +18,13 @@ struct PreparedPolygon {
   /// Inside, the nearest point of the boundary lies on a face; outside, it may be a corner, and the normal points away
   /// from it. Of two faces equally near, the lower one counts.
   [[nodiscard]] Gap gap(Vec2 p) const;
+  /// Inside or on the boundary; far cheaper than the gap of a point outside.
+  [[nodiscard]] bool holds(Vec2 p) const {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (dot(normals[i], p - points[i]) > 0) return false;
+    }
+    return true;
+  }
   [[nodiscard]] std::vector<Polyline> outline(const Box& view) const;
   [[nodiscard]] Box bounds() const { return bounding_box(points); }
 };

@@ -10,7 +10,7 @@
 namespace udar {
 
 /// Every shape of a rigid obstacle. A new one is added here and nowhere else: a struct with keyword, doc, parameters()
-/// and prepared(), whose result has gap(point), outline(view) and bounds().
+/// and prepared(), whose result has gap(point), holds(point), outline(view) and bounds().
 using Shape = std::variant<HalfPlane, Rectangle, Polygon, Circle>;
 
 /// A variant of the distinct types among those already in `Done` and `Rest`.

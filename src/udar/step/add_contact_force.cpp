@@ -20,7 +20,8 @@ ContactSums touch_obstacle(const Model& model, const State& state, const Obstacl
     const Index node = model.contact_nodes[c];
     const NodeRecord& record = state.nodes[node];
     const Vec2 place = place_after(record, h) - moved;
-    if (!obstacle.bounds.holds(place) && (none_touched || springs[c].touches == 0)) continue;
+    const bool inside = obstacle.bounds.holds(place) && shape.holds(place);
+    if (!inside && (none_touched || springs[c].touches == 0)) continue;
 
     const ContactSprings stiffness{obstacle.normal_stiffness[c], obstacle.tangential_stiffness[c], obstacle.friction,
                                    dashpot(model.contact.damping, obstacle.normal_stiffness[c], model.mass[node])};
