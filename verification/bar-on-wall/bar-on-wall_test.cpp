@@ -9,14 +9,6 @@ constexpr double bar_length = 0.1;
 constexpr double height = 0.004;
 constexpr double speed = 1;
 
-// What the scheme itself smears: with linear elements, lumped masses and central difference the frequency of wave
-// number k is c k (1 - (1 - C^2) (k h)^2 / 24), C = c dt / h the step in cells. A jump that has run a way D is then the
-// integral of Airy's function with the length l = ((1 - C^2) h^2 D / 8)^(1/3). The automatic step is 0.9 x 0.9 x 0.707
-// h / c or so: C = 0.6 (with nu = 0 the element factor is 1 or less).
-double airy_length(double element_size, double way) {
-  return std::cbrt((1 - 0.36) * element_size * element_size * way / 8);
-}
-
 Case bar(int cells) {
   Case input = load("bar-on-wall.toml");
   std::get<RectangleMesh>(input.bodies[0].mesh).element_size = bar_length / cells;
