@@ -23,6 +23,7 @@ void* allocate_lines(std::size_t bytes) {
   return memory;
 }
 
-void free_lines(void* memory) { std::free(memory); }
+// The allocator's own counterpart of std::aligned_alloc.
+void free_lines(void* memory) { std::free(memory); }  // NOLINT(cppcoreguidelines-no-malloc)
 
 }  // namespace udar

@@ -90,7 +90,7 @@ std::vector<Edge> mesh_edges(std::span<const Triangle> triangles) {
   std::vector<Edge> edges;
   edges.reserve(3 * triangles.size());
   for (const auto& [a, b, c] : triangles) {
-    for (const auto& [from, to] : {Edge{a, b}, Edge{b, c}, Edge{c, a}}) edges.push_back(std::minmax(from, to));
+    for (const auto& [from, to] : {Edge{a, b}, Edge{b, c}, Edge{c, a}}) edges.emplace_back(std::minmax(from, to));
   }
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());

@@ -47,7 +47,9 @@ struct LaneSums {
   Pack stress_work[packs], plastic_work[packs], stretch[packs];
 
   LaneSums() {
-    for (Index p = 0; p < packs; ++p) stress_work[p] = plastic_work[p] = stretch[p] = Pack(0);
+    for (Pack& p : stress_work) p = Pack(0);
+    for (Pack& p : plastic_work) p = Pack(0);
+    for (Pack& p : stretch) p = Pack(0);
   }
   static Index pack_of(Index element) { return element % lanes / Pack::lanes; }
 
