@@ -69,10 +69,10 @@ class TouchSearch {
     const ContactSprings springs{touch.stiffness, touch.tangential_stiffness, rubs ? settings.friction : 0,
                                  2 * model_.contact.damping * std::sqrt(touch.stiffness * mass)};
     if (rubs) move += (foot.distance / touch.lever * dot(foot.normal, turn)) * tangent;
-    // The stick spring goes along from segment to segment, but not round a corner.
+    // The stick spring goes along from segment to segment, but not round a corner. Let go, its energy is booked.
     constexpr double same_direction = 0.7;
     const bool bends = before.touches != 0 && dot(before.normal, foot.normal) < same_direction;
-    const Gap gap{foot.distance, foot.normal, before.face + (bends ? 1U : 0U)};
+    const Gap gap{foot.distance, foot.normal, before.face + (bends || !rubs ? 1U : 0U)};
     ContactSums& sums = contact_.sums[pair];
     touch.springs = spring_step(before, gap, move, h_, springs, sums.losses);
     if (touch.springs.touches == 0) return;
