@@ -85,10 +85,10 @@ void fail_unstable(const Model& model, const Clock& clock) {
 
 void fail_collapsing_step(const Model& model, const State& state) {
   throw NumericalError(
-      fmt::format("the stable step collapsed to {:.3g} s {}: {}.\n"
+      fmt::format("the stable limit collapsed to {:.3g} s {}: {}.\n"
                   "  Likely cause: the element is crushed flat.\n"
                   "  Cure: a coarser mesh there, or a rounder obstacle.",
-                  state.clock.next_step, when(state.clock), element_text(model, state, state.clock.limit.element)));
+                  state.clock.limit.size, when(state.clock), element_text(model, state, state.clock.limit.element)));
 }
 
 void fail_energy(const Model& model, const State& state) {
