@@ -186,6 +186,15 @@ class Check(Program):
             self.assertRegex(out, pattern)
         self.assertEqual(self.names("."), {"block.toml"})
 
+    def test_tells_how_bodies_touch(self):
+        second = ('[bodies.lid]\nmaterial = "steel"\nmesh = { shape = "rectangle", size = ["4 cm", "1 cm"], '
+                  'at = ["0 cm", "5 cm"], element_size = "5 mm" }\n'
+                  '[[contact.pairs]]\nbody = "lid"\nother = "block"\nfriction = 0.1\n')
+        self.write("two.toml", CASE + second)
+        out, _ = self.udar("check", "two.toml")
+        self.assertIn("contact    of all bodies with each other and themselves: friction 0, springs as stiff as", out)
+        self.assertIn("block: with lid: friction 0.1", out)
+
     def test_is_right_about_memory(self):
         if "libasan" in subprocess.run(["ldd", PROGRAM], capture_output=True, text=True, check=True).stdout:
             self.skipTest("the sanitizer keeps memory of its own")

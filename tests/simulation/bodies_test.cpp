@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tests/simulation/example.hpp"
+#include "udar/base/error.hpp"
 #include "udar/case/build_model.hpp"
 #include "udar/step/step.hpp"
 
@@ -196,6 +197,27 @@ TEST_CASE("a body folds onto itself: its arms strike each other") {
   CHECK(state.ledger.energy_error() < 1e-2);
   // No point of the ring has gone through its other side: the loops of inner and outer boundary keep their order.
   CHECK(state.largest_penetration < 0.5);
+}
+
+TEST_CASE("bodies that overlap at the start are refused, with depth and place") {
+  Case input = two_blocks(elastic, 0);
+  std::get<RectangleMesh>(input.bodies[1].mesh).at = {0.005, 0.015};
+  const Model model = build_model(input);
+  Workspace work(model, 1);
+  try {
+    start(model, work);
+    FAIL("not refused");
+  } catch (const UserError& error) {
+    const std::string text = error.what();
+    CHECK(text.find("bodies `lower` and `upper` overlap") != std::string::npos);
+    CHECK(text.find("m deep in the second") != std::string::npos);
+    CHECK(text.find("touch = \"no\"") != std::string::npos);
+  }
+  // A small part of an element is what springs may be pressed at the start.
+  std::get<RectangleMesh>(input.bodies[1].mesh).at = {0.005, 0.0199};
+  const Model pressed = build_model(input);
+  Workspace room(pressed, 1);
+  CHECK(!start(pressed, room).touches.empty());
 }
 
 TEST_CASE("bodies that are not to touch pass through each other") {

@@ -69,6 +69,23 @@ void print_obstacles(const Model& model) {
   }
 }
 
+/// How bodies touch each other, and for which pairs something else holds.
+void print_body_contact(const Model& model) {
+  const auto text = [](const BodyPair& pair) {
+    if (!pair.touch) return std::string("do not touch");
+    return fmt::format("friction {:.4g}, springs {}", pair.friction,
+                       pair.stiffness ? "of " + in_units(*pair.stiffness, "N/m") : "as stiff as the softer element");
+  };
+  const std::string usual = text({true, model.contact.friction, model.contact.stiffness});
+  if (model.bodies.size() > 1) row("contact", "", "of all bodies with each other and themselves: " + usual);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    for (std::size_t a = 0; a <= b; ++a) {
+      const std::string own = text(model.body_pairs[a * model.bodies.size() + b]);
+      if (own != usual) row("", model.bodies[a].name, fmt::format("with {}: {}", model.bodies[b].name, own));
+    }
+  }
+}
+
 void print_supports_and_loads(const Model& model) {
   const char* label = "supports";
   for (const Support& s : model.supports) {
@@ -163,6 +180,7 @@ ExitCode check_command(const RunArguments& arguments) {
                   rule_of(model.run.integrator).keyword, model.run.gravity.x, model.run.gravity.y));
   print_bodies(model);
   print_obstacles(model);
+  print_body_contact(model);
   print_supports_and_loads(model);
   print_observers(model);
   print_time_step(model, state.clock);
