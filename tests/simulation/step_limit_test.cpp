@@ -57,7 +57,7 @@ struct Watch {
   int steps = 0;
   int too_large = 0;          ///< the limit was above the exact one
   int too_small = 0;          ///< or further below than one percent
-  int too_long = 0;           ///< the step was longer than the exact limit
+  int too_long = 0;           ///< the step was longer than the exact limit, or planned longer than its safe part
   int cut = 0;                ///< the step was cut short after its velocity was computed
   double smallest_ratio = 1;  ///< of limit and exact limit
   double computed = 0;        ///< blocks that computed their frequency
@@ -73,6 +73,10 @@ struct Watch {
     const double longest = clock.next_is_last != 0 ? 1 + 2e-6 : 1 + rounding;
     cut += clock.next_velocity_ahead > 0 ? 1 : 0;
     too_long += clock.next_step > longest * exact ? 1 : 0;
+    const double longest_planned = clock.following_is_last != 0 ? 1 + 2e-6 : 1 + rounding;
+    if (!model.run.time_step) {
+      too_long += clock.following_step > longest_planned * model.run.step_safety * exact ? 1 : 0;
+    }
     smallest_ratio = std::min(smallest_ratio, clock.limit.size / exact);
     for (std::size_t b = 0; b < state.frequency.size(); ++b) {
       const FrequencyBound& now = state.frequency[b];

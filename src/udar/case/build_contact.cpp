@@ -152,8 +152,9 @@ void add_body_pairs(Model& model, const Case& input) {
 void limit_contact_steps(Model& model) {
   std::vector<double> spring(model.node_count);
   std::vector<double> dashpot(model.node_count);
-  for (std::size_t c = 0; c < model.contact_nodes.size(); ++c)
+  for (std::size_t c = 0; c < model.contact_nodes.size(); ++c) {
     spring[model.contact_nodes[c]] = model.contact_allowance[c];
+  }
   for (const Obstacle& obstacle : model.obstacles) {
     for (std::size_t c = 0; c < model.contact_nodes.size(); ++c) {
       const Index node = model.contact_nodes[c];

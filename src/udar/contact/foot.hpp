@@ -29,6 +29,24 @@ struct Foot {
 /// Vector out of the body across a segment, as long as the segment.
 constexpr Vec2 outward(Vec2 along) { return {along.y, -along.x}; }
 
+/// Direction out of the body in the end that two segments share: the sum of their normals, not of unit length.
+template <class Place>
+Vec2 normal_between(const Segment& one, const Segment& two, Place&& place) {
+  Vec2 sum;
+  for (const Segment* s : {&one, &two}) {
+    const Vec2 along = place(s->b) - place(s->a);
+    const double size = length(along);
+    if (size > 0) sum += (1 / size) * outward(along);
+  }
+  return sum;
+}
+
+/// `v` of length 1; `otherwise` where it has none.
+inline Vec2 unit(Vec2 v, Vec2 otherwise) {
+  const double size = length(v);
+  return size > 0 ? (1 / size) * v : otherwise;
+}
+
 /// The nearest point of one segment. In an end of it, which two segments share, the mean of their normals tells inside
 /// from outside (Baerentzen and Aanaes 2005). `place(point)` is where a point is, m.
 template <class Place>
@@ -44,18 +62,11 @@ Foot foot_on(const std::vector<Segment>& segments, std::uint32_t number, Vec2 p,
     return {number, part, dot(normal, p - a), normal};
   }
   const bool at_b = part >= 1;
-  const Segment& other = segments[at_b ? segment.after : segment.before];
-  const Vec2 other_along = place(other.b) - place(other.a);
-  const double other_length = length(other_along);
-  Vec2 mean = square > 0 ? (1 / std::sqrt(square)) * outward(along) : Vec2{};
-  if (other_length > 0) mean += (1 / other_length) * outward(other_along);
+  const Vec2 mean = normal_between(segment, segments[at_b ? segment.after : segment.before], place);
   const Vec2 away = p - (at_b ? b : a);
   const double distance = length(away);
   const double end = at_b ? 1.0 : 0.0;
-  if (!(distance > 0)) {
-    const double size = length(mean);
-    return {number, end, 0, size > 0 ? (1 / size) * mean : Vec2{0, 1}};
-  }
+  if (!(distance > 0)) return {number, end, 0, unit(mean, {0, 1})};
   const double sign = dot(mean, away) < 0 ? -1 : 1;
   return {number, end, sign * distance, (sign / distance) * away};
 }
@@ -101,19 +112,6 @@ Foot follow_foot(const std::vector<Segment>& segments, std::uint32_t number, Vec
     if (foot.segment == last.segment) break;
   }
   return settle_tie(segments, foot, p, place);
-}
-
-/// The normal of a body in the end of a segment that two of them share: the mean of theirs.
-template <class Place>
-Vec2 normal_at_begin(const std::vector<Segment>& segments, std::uint32_t number, Place&& place) {
-  Vec2 mean;
-  for (const std::uint32_t s : {segments[number].before, number}) {
-    const Vec2 along = place(segments[s].b) - place(segments[s].a);
-    const double size = length(along);
-    if (size > 0) mean += (1 / size) * outward(along);
-  }
-  const double size = length(mean);
-  return size > 0 ? (1 / size) * mean : Vec2{};
 }
 
 }  // namespace udar

@@ -119,6 +119,9 @@ struct State {
   Ledger ledger;
 };
 
+/// Where a node is at t_n, m.
+inline Vec2 place(const State& state, Index node) { return {state.nodes[node].x, state.nodes[node].y}; }
+
 /// Velocity at t_n, m/s, from what the integrator keeps.
 inline Vec2 velocity(const State& state, Index node) {
   if (!state.velocity.empty()) return state.velocity[node];

@@ -120,7 +120,7 @@ EpisodeSummary ContactRecorder::episode(const Partners& partners, const Touch& f
     e.velocity_after = (1 / mass) * after;
     moving = model_.obstacles[partners.book].velocity;
   }
-  // Along the impulse of the normal forces: the direction in which the obstacle pushed.
+  // Along the impulse of the normal forces: the direction of the push.
   const Vec2 push = last.normal_after - first.normal_before;
   const double towards = -dot(e.velocity_before - moving, push);
   if (last.over && towards > 0) e.restitution = dot(e.velocity_after - moving, push) / towards;

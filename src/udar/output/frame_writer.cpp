@@ -85,8 +85,6 @@ VtuField contact_force_field(const Model& model, const State& state) {
   });
 }
 
-Vec2 place(const State& state, Index i) { return {state.nodes[i].x, state.nodes[i].y}; }
-
 void add_point_fields(const Model& model, const State& state, std::vector<VtuField>& out) {
   out.push_back(node_vectors(model, "displacement", "m", [&](Index i) { return place(state, i) - model.rest[i]; }));
   out.push_back(node_vectors(model, "velocity", "m/s", [&](Index i) { return velocity(state, i); }));

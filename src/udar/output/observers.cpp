@@ -12,8 +12,6 @@ namespace {
 
 const ObserverWindow always{0, std::numeric_limits<double>::infinity()};
 
-Vec2 place(const State& state, Index node) { return {state.nodes[node].x, state.nodes[node].y}; }
-
 /// Nodes taken together, at t_n.
 struct Together {
   Vec2 position{};      // m, of the centre of mass

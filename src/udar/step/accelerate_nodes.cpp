@@ -46,8 +46,9 @@ Box velocities_at(const Model& model, const State& state, const OuterNodes& node
   return box;
 }
 
-/// What all blocks of nodes have in common.
-NodeTask common_task(const Model& model, const State& state) {
+}  // namespace
+
+NodeTask node_task(const Model& model, const State& state) {
   const Clock& clock = state.clock;
   NodeTask task{.last_step = clock.last_step,
                 .span = velocity_span(clock),
@@ -64,14 +65,13 @@ NodeTask common_task(const Model& model, const State& state) {
   return task;
 }
 
-}  // namespace
-
-void accelerate_nodes(const Model& model, State& state, Workspace& work, std::size_t b, const NodeForces& forces) {
+void accelerate_nodes(const Model& model, State& state, Workspace& work, std::size_t b, const NodeForces& forces,
+                      const NodeTask& common) {
   const bool multistep = rule_of(model.run.integrator).weights != nullptr;
   const NodeKernel kernel = multistep ? work.kernels.multistep : work.kernels.central_difference;
   const NodeBlock& block = model.node_blocks[b];
   const OuterNodes& outer = work.outer_nodes[b];
-  NodeTask task = common_task(model, state);
+  NodeTask task = common;
   task.count = block.end - block.begin;
   task.nodes = &state.nodes[block.begin];
   task.mass = &model.mass[block.begin];

@@ -79,7 +79,7 @@ void enter_springs(const Model& model, State& state, const Workspace& work) {
       enter(*sums);
     }
   }
-  for (const ContactSums& pair : work.bodies.sums) enter(pair);
+  enter(work.bodies.sums);
   ledger.friction_work.add(losses.friction);
   ledger.dropped_energy.add(losses.dropped);
 }

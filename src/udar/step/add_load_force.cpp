@@ -4,7 +4,8 @@
 namespace udar {
 namespace {
 
-Vec2 place(const State& state, Index node) { return place_after(state.nodes[node], state.clock.last_step); }
+/// At the end of the step, m.
+Vec2 end_place(const State& state, Index node) { return place_after(state.nodes[node], state.clock.last_step); }
 
 }  // namespace
 
@@ -20,7 +21,7 @@ void set_loads(const Model& model, State& state) {
       // Half of the pressure on the deformed edge at each end, into the body, which lies on the edge's left.
       const double half_pressure = 0.5 * factor * load.pressure * load.thickness;
       for (std::size_t k = 0; k < load.edges.size(); ++k) {
-        const Vec2 inward = perpendicular(place(state, load.edges[k].b) - place(state, load.edges[k].a));
+        const Vec2 inward = perpendicular(end_place(state, load.edges[k].b) - end_place(state, load.edges[k].a));
         forces[2 * k] = forces[2 * k + 1] = half_pressure * inward;
       }
     }

@@ -11,8 +11,6 @@
 namespace udar {
 namespace {
 
-Vec2 place(const State& state, Index node) { return place_after(state.nodes[node], 0); }
-
 std::string when(const Clock& clock) {
   return fmt::format("at t = {:.6g} s (step {}, h = {:.4g} s)", clock.time.value(), clock.step, clock.last_step);
 }

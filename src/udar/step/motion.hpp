@@ -13,7 +13,7 @@ inline Vec2 damping_force(const Model& model, const State& state, Index node, do
 }
 
 /// Where a node will be at the end of a step, m. Nodes are moved when they are accelerated, in one pass over them; what
-/// needs their new places before that takes them from here. `h` is 0 once they have moved.
+/// needs their new places before that takes them from here.
 inline Vec2 place_after(const NodeRecord& r, double h) { return {r.x + h * r.vx, r.y + h * r.vy}; }
 
 /// Rate of mass damping now, 1/s.

@@ -5,8 +5,8 @@
 
 namespace udar {
 
-/// The stages of a step, in the order in which they run; each stands in the file of its name. docs/the-step.md says
-/// what each reads and writes.
+/// The stages of a step, in the order in which they run. docs/the-step.md says what each reads and writes. Each stands
+/// in the file of its name; `sweep` in step.cpp, `set_loads` and `set_supports` beside what adds their forces.
 
 void advance_clock(const Model& model, State& state);
 void set_loads(const Model& model, State& state);
@@ -21,12 +21,21 @@ void deform_elements(const Model& model, State& state, Workspace& work, std::siz
 void add_contact_force(const Model& model, State& state, Workspace& work, std::size_t block, NodeForces& forces);
 void add_load_force(const State& state, const Workspace& work, std::size_t block, NodeForces& forces);
 void add_support_force(const Model& model, State& state, Workspace& work, std::size_t block, NodeForces& forces);
-void accelerate_nodes(const Model& model, State& state, Workspace& work, std::size_t block, const NodeForces& forces);
+/// `common`: as node_task gives it.
+void accelerate_nodes(const Model& model, State& state, Workspace& work, std::size_t block, const NodeForces& forces,
+                      const NodeTask& common);
+/// What all blocks of nodes have in common in a step: times, weights of the integrator, gravity, damping.
+NodeTask node_task(const Model& model, const State& state);
 
 /// Part of close_books: what the springs hold and have lost, and how deep they are pressed.
 void enter_springs(const Model& model, State& state, const Workspace& work);
 
 // Only at the start.
+
+/// A body may start at rest on its springs, by this part of an element deep; more is a body put in the wrong place,
+/// which its springs would shoot off.
+inline constexpr double deepest_start = 0.2;
+
 void find_frequencies(const Model& model, State& state, Workspace& work);
 State rest_state(const Model& model);
 void refuse_overlapping_bodies(const Model& model);

@@ -47,10 +47,6 @@ State rest_state(const Model& model) {
 
 namespace {
 
-/// A body may start at rest on its springs, a small part of an element deep; more is a body put in the wrong place,
-/// which its springs would shoot off.
-constexpr double deepest_start = 0.2;
-
 /// How deep a point lies in a body at t = 0, m; 0 outside.
 double depth_in(const Model& model, Vec2 p, std::size_t body) {
   const auto place = [&](std::uint32_t point) { return model.rest[model.contact_nodes[point]]; };

@@ -8,16 +8,17 @@ namespace udar {
 /// From the stresses at x_n to the velocity to x_{n+2}, in one pass over memory: a block of nodes follows as soon as
 /// the last of its elements is done, while all that they share is at hand.
 void sweep(const Model& model, State& state, Workspace& work) {
+  const NodeTask common = node_task(model, state);
   work.forces.for_each_block(
       work.pool,
       [&](std::size_t elements) {
         deform_elements(model, state, work, elements);  // strain and turn, stress, corner forces at x_{n+1}
       },
-      [&](std::size_t nodes, NodeForces& forces) {             // those of the elements are summed
-        add_contact_force(model, state, work, nodes, forces);  // springs and friction at x_{n+1}
-        add_load_force(state, work, nodes, forces);            // point forces, tractions, pressures
-        add_support_force(model, state, work, nodes, forces);  // what it takes to move the held nodes as given
-        accelerate_nodes(model, state, work, nodes, forces);   // x_{n+1}, a_{n+1} and the velocity to x_{n+2}
+      [&](std::size_t nodes, NodeForces& forces) {                    // those of the elements are summed
+        add_contact_force(model, state, work, nodes, forces);         // springs and friction at x_{n+1}
+        add_load_force(state, work, nodes, forces);                   // point forces, tractions, pressures
+        add_support_force(model, state, work, nodes, forces);         // what it takes to move the held nodes as given
+        accelerate_nodes(model, state, work, nodes, forces, common);  // x_{n+1}, a_{n+1} and the velocity to x_{n+2}
       });
   refuse_inverted(model, state, work);
 }

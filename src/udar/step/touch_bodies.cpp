@@ -19,7 +19,8 @@ class TouchSearch {
             const BodyTouch* before, std::vector<BodyTouch>& touches) {
     const Vec2 p = contact_.places[point];
     const auto place = [&](std::uint32_t c) { return contact_.places[c]; };
-    const Vec2 normal = normal_at_begin(model_.segments, model_.segment_from[point], place);
+    const Segment& from = model_.segments[model_.segment_from[point]];
+    const Vec2 normal = unit(normal_between(model_.segments[from.before], from, place), {});
     if (before != nullptr) {
       press(*before, follow_foot(model_.segments, before->segment, p, normal, place), touches);
       return;
@@ -40,14 +41,12 @@ class TouchSearch {
   /// A point that just came in is no deeper than it moved; deeper ones see the far side of their own wall, or a
   /// boundary on which an end was taken for the inside. At the start bodies may rest on their springs.
   [[nodiscard]] double deepest_first_touch(std::uint32_t point) const {
-    constexpr double at_start = 0.2;
     constexpr double rounding = 1 + 1e-9;
-    return state_.clock.step == 0 ? at_start * model_.contact_node_sizes[point] : rounding * contact_.moved;
+    return state_.clock.step == 0 ? deepest_start * model_.contact_node_sizes[point] : rounding * contact_.moved;
   }
 
   void press(BodyTouch touch, const Foot& foot, std::vector<BodyTouch>& touches) {
-    const std::size_t pair = model_.pair_of(touch.point, touch.body);
-    const BodyPair& settings = model_.body_pairs[pair];
+    const BodyPair& settings = model_.body_pairs[model_.pair_of(touch.point, touch.body)];
     const SpringState before = touch.springs;
     touch.segment = foot.segment;
     touch.along = foot.along;
@@ -73,7 +72,7 @@ class TouchSearch {
     constexpr double same_direction = 0.7;
     const bool bends = before.touches != 0 && dot(before.normal, foot.normal) < same_direction;
     const Gap gap{foot.distance, foot.normal, before.face + (bends || !rubs ? 1U : 0U)};
-    ContactSums& sums = contact_.sums[pair];
+    ContactSums& sums = contact_.sums;
     touch.springs = spring_step(before, gap, move, h_, springs, sums.losses);
     if (touch.springs.touches == 0) return;
 
@@ -205,7 +204,7 @@ void touch_bodies(const Model& model, State& state, Workspace& work) {
   BodyContact& contact = work.bodies;
   if (model.segments.empty()) return;
   keep_list(model, state, contact);
-  std::fill(contact.sums.begin(), contact.sums.end(), ContactSums{});
+  contact.sums = {};
   contact.pushes = !contact.near.empty() || !state.touches.empty();
   if (!contact.pushes) {
     contact.excess = contact.dashpot = 0;

@@ -25,7 +25,7 @@ void sort_by_node(std::vector<Entry>& entries) {
 
 }  // namespace
 
-BodyContact::BodyContact(const Model& model) : velocities(model.node_blocks.size()), sums(model.body_pairs.size()) {
+BodyContact::BodyContact(const Model& model) : velocities(model.node_blocks.size()) {
   if (model.segments.empty()) return;
   const std::size_t points = model.contact_nodes.size();
   places.resize(points);

@@ -74,7 +74,7 @@ struct BodyContact {
   std::vector<Vec2> forces;               ///< N, on each point
   std::vector<double> springs, dashpots;  ///< N/m and N s/m, what they add to the bounds at each point
   std::vector<BodyTouch> found;
-  std::vector<ContactSums> sums;        ///< one for each of Model::body_pairs
+  ContactSums sums;                     ///< of all touches
   std::vector<PairForces> pair_forces;  ///< in the order of pair_number
   double excess = 0;                    ///< 1/s2, of their bound on frequency^2 above what elements allow for
   double dashpot = 0;                   ///< 1/s
