@@ -46,6 +46,11 @@ void print_bodies(const Model& model) {
                     std::sqrt(c.wave_modulus() / body.density), std::sqrt(c.shear_modulus / body.density)));
     label = "";
   }
+  for (const RigidBody& rigid : model.rigid_bodies) {
+    row("", model.bodies[rigid.body].name,
+        fmt::format("rigid, inertia {:.6g} kg m^2 about its centre of mass at ({:.5g}, {:.5g}) m", rigid.inertia,
+                    rigid.centre.x, rigid.centre.y));
+  }
 }
 
 std::string range_in_units(const std::vector<double>& values, std::string_view unit) {

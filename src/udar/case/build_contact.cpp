@@ -73,9 +73,11 @@ void allow_for_touches(Model& model) {
   model.contact_allowance.assign(model.contact_nodes.size(), 0);
   const std::size_t n = model.bodies.size();
   std::vector<double> coarsest(n);  // m, contact node of each body
+  std::vector<double> stiffest(n);  // N/m
   for (std::size_t c = 0; c < model.contact_nodes.size(); ++c) {
-    double& size = coarsest[model.contact_bodies[c]];
-    size = std::max(size, model.contact_node_sizes[c]);
+    const std::size_t body = model.contact_bodies[c];
+    coarsest[body] = std::max(coarsest[body], model.contact_node_sizes[c]);
+    stiffest[body] = std::max(stiffest[body], model.contact_stiffness[c]);
   }
   for (std::size_t c = 0; c < model.contact_nodes.size(); ++c) {
     double most = 0;
@@ -86,7 +88,11 @@ void allow_for_touches(Model& model) {
       const double size = model.contact_node_sizes[c];
       const double automatic = 0.5 * model.contact_stiffness[c];  // at most, see touch_stiffness
       const double own = pair.stiffness.value_or(automatic);
-      const double others = pair.stiffness.value_or(automatic * std::max(1.0, coarsest[other] / size));
+      // A rigid body may be meshed very coarsely: its springs are as stiff as its own elements at most.
+      const double stiffest_other = model.bodies[other].rigid ? std::max(automatic, 0.5 * stiffest[other])
+                                                              : std::numeric_limits<double>::infinity();
+      const double coarser = automatic * std::max(1.0, coarsest[other] / size);
+      const double others = pair.stiffness.value_or(std::min(coarser, stiffest_other));
       most = std::max(most, 2 * (own + others));
     }
     model.contact_allowance[c] = most * model.inverse_mass[model.contact_nodes[c]];
@@ -109,7 +115,8 @@ void add_contact_nodes(Model& model) {
       const Edge edge = body.boundary[k];
       const double edge_length = length(model.rest[edge.b] - model.rest[edge.a]);
       const double stiffness = modulus * 0.5 * edge_length / heights[k];
-      soft.push_back(modulus / heights[k]);
+      // A rigid boundary yields nothing: the spring is that of the other side.
+      soft.push_back(body.rigid ? std::numeric_limits<double>::infinity() : modulus / heights[k]);
       for (const Index node : {edge.a, edge.b}) {
         const auto [at, fresh] = place.try_emplace(node, found.size());
         if (fresh) found.push_back({.node = node, .body = b});
@@ -146,8 +153,28 @@ void add_body_pairs(Model& model, const Case& input) {
                         from.stiffness ? from.stiffness : input.contact.stiffness};
     model.body_pairs[a * n + b] = model.body_pairs[b * n + a] = pair;
   }
+  for (const RigidBody& rigid : model.rigid_bodies) model.body_pairs[rigid.body * n + rigid.body].touch = false;
   allow_for_touches(model);
 }
+
+namespace {
+
+/// A rigid body has three frequencies; their squares are at most the sum of what all its springs add, one by one.
+void limit_rigid_bodies(Model& model, const std::vector<double>& spring, const std::vector<double>& dashpot) {
+  for (RigidBody& rigid : model.rigid_bodies) {
+    const Body& body = model.bodies[rigid.body];
+    for (std::size_t c = 0; c < model.contact_nodes.size(); ++c) {
+      const Index node = model.contact_nodes[c];
+      if (node < body.node_begin || node >= body.node_end) continue;
+      const double part = model.mass[node] * rigid.inverse_mass_at(model.rest[node]);
+      // Where nothing may touch it there is no bound at all: the springs of its own material give a step to fly with.
+      rigid.springs += part * std::max(spring[node], model.contact_stiffness[c] * model.inverse_mass[node]);
+      rigid.dashpots += part * dashpot[node];
+    }
+  }
+}
+
+}  // namespace
 
 void limit_contact_steps(Model& model) {
   std::vector<double> spring(model.node_count);
@@ -165,6 +192,7 @@ void limit_contact_steps(Model& model) {
       dashpot[node] += 2 * model.contact.damping * std::sqrt(obstacle.normal_stiffness[c] * model.inverse_mass[node]);
     }
   }
+  limit_rigid_bodies(model, spring, dashpot);
   model.contact_spring.assign(model.corners.size(), 0);
   for (ElementBlock& block : model.element_blocks) {
     for (Index e = block.begin; e < block.end; ++e) {

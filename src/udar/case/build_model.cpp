@@ -40,6 +40,23 @@ void reserve(Model& model, const std::vector<Mesh>& meshes) {
   model.element_numbers.reserve(elements);
 }
 
+/// Appends the blocks in which a body's elements are deformed.
+void append_blocks(Model& model, const Body& body, const MeshBlocks& cut) {
+  const auto first_quad = static_cast<Index>(model.quads.size());
+  model.quads.reserve(first_quad + cut.quads.size());
+  for (Quad quad : cut.quads) {
+    for (Index& node : quad) node = node == none ? none : node + body.node_begin;
+    model.quads.push_back(quad);
+  }
+  for (ElementBlock block : cut.blocks) {
+    block.begin += body.element_begin;
+    block.end += body.element_begin;
+    block.quads += first_quad;
+    block.body = static_cast<Index>(model.bodies.size());
+    model.element_blocks.push_back(block);
+  }
+}
+
 /// Appends a body's mesh to the model's arrays, block by block. Elements are padded to whole vectors with the padding
 /// triangle, whose corners are set when the number of nodes is known.
 void append_body(Model& model, const BodyCase& from, const MaterialCase& material, Mesh& mesh) {
@@ -51,7 +68,8 @@ void append_body(Model& model, const BodyCase& from, const MaterialCase& materia
             .thickness = from.thickness,
             .node_begin = model.node_count,
             .node_end = model.node_count + nodes,
-            .element_begin = static_cast<Index>(model.corners.size())};
+            .element_begin = static_cast<Index>(model.corners.size()),
+            .rigid = from.rigid};
   body.element_end = body.element_begin + elements;
   body.padded_end = (body.element_end + lanes - 1) / lanes * lanes;
   const MeshBlocks cut = cut_blocks(mesh);
@@ -74,19 +92,8 @@ void append_body(Model& model, const BodyCase& from, const MaterialCase& materia
     for (const Index corner : model.corners.back()) model.mass[corner] += mass / 3;
   }
   model.element_numbers.insert(model.element_numbers.end(), mesh.triangle_numbers.begin(), mesh.triangle_numbers.end());
-  const auto first_quad = static_cast<Index>(model.quads.size());
-  model.quads.reserve(first_quad + cut.quads.size());
-  for (Quad quad : cut.quads) {
-    for (Index& node : quad) node = node == none ? none : node + body.node_begin;
-    model.quads.push_back(quad);
-  }
-  for (ElementBlock block : cut.blocks) {
-    block.begin += body.element_begin;
-    block.end += body.element_begin;
-    block.quads += first_quad;
-    block.body = static_cast<Index>(model.bodies.size());
-    model.element_blocks.push_back(block);
-  }
+  if (!body.rigid) append_blocks(model, body, cut);
+
   model.element_numbers.resize(body.padded_end);
   model.area_density.resize(body.padded_end, body.density);
   model.corners.resize(body.padded_end, {none, none, none});
@@ -144,6 +151,37 @@ void cut_node_blocks(Model& model) {
   }
 }
 
+/// Bodies that move as one piece. Their masses are those of their triangles, not of points at the nodes: what a rigid
+/// body does depends on its outline and not on its mesh.
+void add_rigid_bodies(Model& model, const Case& input) {
+  std::size_t block = 0;
+  for (Index b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    const std::size_t begin = block;
+    while (block < model.node_blocks.size() && model.node_blocks[block].body == b) ++block;
+    if (!body.rigid) continue;
+    RigidBody rigid{.body = b,
+                    .block_begin = begin,
+                    .block_end = block,
+                    .centre = centre_of_mass(model, body),
+                    .mass = body.mass,
+                    .start_velocity = input.bodies[b].velocity,
+                    .start_spin = input.bodies[b].spin};
+    for (Index e = body.element_begin; e < body.element_end; ++e) {
+      // The integral of r . r over a triangle is area / 12 times sum r_i . r_i + (sum r_i) . (sum r_i).
+      Vec2 sum;
+      double squares = 0;
+      for (const Index corner : model.corners[e]) {
+        const Vec2 arm = model.rest[corner] - rigid.centre;
+        sum += arm;
+        squares += dot(arm, arm);
+      }
+      rigid.inertia += model.area_density[e] * body.thickness / 12 * (squares + dot(sum, sum));
+    }
+    model.rigid_bodies.push_back(rigid);
+  }
+}
+
 }  // namespace
 
 Model build_model(const Case& input) {
@@ -165,6 +203,7 @@ Model build_model(const Case& input, std::vector<Mesh> meshes) {
   add_padding(model);
   for (const double mass : model.mass) model.inverse_mass.push_back(1 / mass);
   cut_node_blocks(model);
+  add_rigid_bodies(model, input);
 
   add_contact_nodes(model);
   add_obstacles(model, input);

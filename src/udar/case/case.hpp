@@ -33,6 +33,7 @@ struct BodyCase {
   double thickness = 1;  ///< m
   Vec2 velocity{};       ///< m/s
   double spin = 0;       ///< rad/s, counter-clockwise about the centre of mass
+  bool rigid = false;    ///< moves as one piece, by its own mass and inertia
   std::optional<CosineMode> cosine_mode;
   MeshShape mesh = RectangleMesh{};
 };

@@ -43,6 +43,7 @@ class Importer {
       out.text = text->get();
     } else if (node.is_boolean()) {
       out.kind = Value::Kind::boolean;
+      out.number = node.value_or(false) ? 1 : 0;
     } else if (const auto number = node.value<double>(); number && node.is_number()) {
       out.kind = Value::Kind::number;
       out.number = *number;

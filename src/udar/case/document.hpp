@@ -25,7 +25,7 @@ struct Entry;
 struct Value {
   enum class Kind { boolean, number, text, list, table, date };
   Kind kind = Kind::table;
-  double number = 0;
+  double number = 0;  ///< of a boolean 1 or 0
   std::string text;
   std::vector<Value> items;    ///< of a list
   std::vector<Entry> entries;  ///< of a table, in the order of the file

@@ -122,13 +122,16 @@ const Schema<MeshShape>& mesh_schema() {
 const Schema<BodyCase>& body_schema() {
   using B = BodyCase;
   static const Schema<B> schema{
-      .doc = "A body that deforms, in plane strain.",
+      .doc = "A body that deforms, in plane strain, or is rigid.",
       .keys = {
           key("material", &B::material, NameKind{"name of a material", "steel"}, "what it is made of", required),
           key("thickness", &B::thickness, QuantityKind{dimension::length, limits::positive}, "out of the plane"),
           key("velocity", &B::velocity, velocity, "at the start, of every node"),
           key("spin", &B::spin, QuantityKind{dimension::spin},
               "at the start, counter-clockwise about the centre of mass"),
+          key("rigid", &B::rigid, YesNoKind{},
+              "moves as one piece, by its own mass and inertia; its material gives the density and its contact "
+              "springs"),
           key("cosine_mode", &B::cosine_mode, InlineTableKind<CosineMode>{cosine_mode_schema},
               "a velocity at the start that changes from place to place"),
           key("mesh", &B::mesh, InlineTableKind<MeshShape>{mesh_schema}, "its triangles", required),

@@ -79,6 +79,11 @@ std::string QuantityKind::describe() const {
   return dimension_name(dimension) + (range.empty() ? "" : ", " + range);
 }
 
+void YesNoKind::read(const Value& value, const std::string& path, bool& out, Mistakes& mistakes) const {
+  if (value.kind != Kind::boolean) return wrong_kind(value, path, describe(), example(), mistakes);
+  out = value.number != 0;
+}
+
 void QuantityKind::read(const Value& value, const std::string& path, double& out, Mistakes& mistakes) const {
   const auto refuse = [&](const UnitError& error) {
     mistakes.add(

@@ -28,6 +28,15 @@ std::string toml_text(std::string_view text);
 void wrong_kind(const Value& value, const std::string& path, const std::string& needed, const std::string& example,
                 Mistakes& mistakes);
 
+/// true or false.
+struct YesNoKind {
+  [[nodiscard]] std::string describe() const { return "true or false"; }
+  [[nodiscard]] std::string example() const { return "true"; }
+  void read(const Value& value, const std::string& path, bool& out, Mistakes& mistakes) const;
+  void check(bool, const std::string&, Mistakes&) const {}
+  [[nodiscard]] std::string write(bool value) const { return value ? "true" : "false"; }
+};
+
 /// A number with unit: "80 m/s".
 struct QuantityKind {
   Dimension dimension;

@@ -194,11 +194,20 @@ void check_selection(const Selection& s, const std::string& path, bool edges, Mi
   }
 }
 
+bool is_rigid(const Case& c, const std::string& name) {
+  return std::any_of(c.bodies.begin(), c.bodies.end(), [&](const BodyCase& b) { return b.name == name && b.rigid; });
+}
+
 void check_supports(const Case& c, const Known& bodies, Mistakes& mistakes) {
   for (const SupportCase& s : c.supports) {
     const std::string path = join("supports", s.name);
     bodies.check(s.nodes.body, join(path, "body"), mistakes);
     check_selection(s.nodes, join(path, "nodes"), false, mistakes);
+    if (is_rigid(c, s.nodes.body)) {
+      mistakes.add_unless_touched({join(path, "body"), fmt::format("the body \"{}\" is rigid", shown(s.nodes.body)),
+                                   "it moves by its mass and what pushes it; supports hold nodes of others",
+                                   "what moves as given is an obstacle: make it one, with a velocity"});
+    }
     if (s.turn && (s.move_x || s.move_y)) {
       mistakes.add_unless_touched({join(path, "turn"), "a support either turns or moves",
                                    "it has move_x or move_y as well", "leave one of them out"});
@@ -272,6 +281,10 @@ void check_rules(const Case& c, Mistakes& mistakes) {
   for (const BodyCase& body : c.bodies) {
     const std::string path = join("bodies", body.name);
     materials.check(body.material, join(path, "material"), mistakes);
+    if (body.rigid && body.cosine_mode) {
+      mistakes.add_unless_touched({join(path, "cosine_mode"), "a rigid body has one velocity and one spin",
+                                   "a cosine mode would deform it", "leave it out, or rigid = true"});
+    }
     check_variant(body.mesh, join(path, "mesh"), mistakes);
   }
   for (const ObstacleCase& obstacle : c.obstacles) {
@@ -284,6 +297,12 @@ void check_rules(const Case& c, Mistakes& mistakes) {
   std::set<std::string> observers;
   check_observers(c.observed_nodes, "observe.nodes", bodies, observers, mistakes);
   check_observers(c.observed_elements, "observe.elements", bodies, observers, mistakes);
+  for (std::size_t i = 0; i < c.observed_elements.size(); ++i) {
+    if (!is_rigid(c, c.observed_elements[i].body)) continue;
+    mistakes.add_unless_touched({join(join("observe.elements", std::to_string(i)), "body"),
+                                 fmt::format("the body \"{}\" is rigid", shown(c.observed_elements[i].body)),
+                                 "its elements have no stress", "observe one of its nodes instead"});
+  }
   check_observers(c.observed_regions, "observe.regions", bodies, observers, mistakes);
 }
 

@@ -32,6 +32,7 @@ struct Body {
   Index element_end = 0;
   Index padded_end = 0;
   double mass = 0;  ///< kg
+  bool rigid = false;
   std::vector<Edge> boundary;
   std::vector<NamedEdges> sides;
 };
@@ -41,6 +42,25 @@ struct NodeBlock {
   Index begin = 0;
   Index end = 0;
   Index body = 0;
+};
+
+/// A body that moves as one piece. Its elements have no stress and are in no block.
+struct RigidBody {
+  Index body = 0;
+  std::size_t block_begin = 0;  ///< in Model::node_blocks
+  std::size_t block_end = 0;
+  Vec2 centre{};          ///< m, of mass, at rest
+  double mass = 0;        ///< kg
+  double inertia = 0;     ///< kg m2, of its area about the centre
+  Vec2 start_velocity{};  ///< m/s
+  double start_spin = 0;  ///< rad/s
+  double springs = 0;     ///< 1/s2: what all springs that may touch it add to its frequency^2
+  double dashpots = 0;    ///< 1/s, the same of their dashpots
+
+  /// 1 / kg: what a spring at `place` (m, at rest) moves of the body at most, 1 / mass + arm^2 / inertia.
+  [[nodiscard]] double inverse_mass_at(Vec2 place) const {
+    return 1 / mass + dot(place - centre, place - centre) / inertia;
+  }
 };
 
 inline constexpr Index padding_nodes = 3;  ///< corners of the padding triangle, after the last node
@@ -126,8 +146,9 @@ struct Model {
   RunSettings run;
   ContactSettings contact;
   std::vector<Body> bodies;
-  std::vector<ElementBlock> element_blocks;
-  std::vector<NodeBlock> node_blocks;
+  std::vector<RigidBody> rigid_bodies;
+  std::vector<ElementBlock> element_blocks;  ///< of bodies that deform
+  std::vector<NodeBlock> node_blocks;        ///< of all bodies
 
   // Nodes, then the padding nodes.
   Index node_count = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -32,6 +33,25 @@ struct ContactBook {
 constexpr std::size_t pair_number(std::size_t a, std::size_t b) {
   return a < b ? b * (b + 1) / 2 + a : a * (a + 1) / 2 + b;
 }
+
+/// Rates of the motion of a rigid body: of its centre of mass, and of its turn.
+struct RigidRate {
+  Vec2 linear{};       ///< m/s, or m/s2
+  double angular = 0;  ///< rad/s, or rad/s2
+
+  RigidRate& operator+=(const RigidRate& b) { return linear += b.linear, angular += b.angular, *this; }
+  friend RigidRate operator+(RigidRate a, const RigidRate& b) { return a += b; }
+  friend RigidRate operator*(double s, const RigidRate& a) { return {s * a.linear, s * a.angular}; }
+};
+
+/// A rigid body at t_n, with the velocity that carries it to t_{n+1}.
+struct RigidMotion {
+  Vec2 place{};                              ///< m, of its centre of mass
+  double angle = 0;                          ///< rad, since t = 0
+  RigidRate velocity;                        ///< mean over the coming step
+  RigidRate now;                             ///< v_n; Adams integrators only
+  std::array<RigidRate, 3> accelerations{};  ///< accelerations at t_n, t_{n-1}, t_{n-2}
+};
 
 /// What limits the step.
 struct StepLimit {
@@ -106,6 +126,7 @@ struct State {
   Array<std::uint8_t> flowing;      ///< bit e % 8 of byte e / 8: element e flowed in the last step
   Array<FrequencyBound> frequency;  ///< one for each block of elements
 
+  std::vector<RigidMotion> rigid;     ///< one for each of Model::rigid_bodies
   std::vector<SpringState> contacts;  ///< obstacle by obstacle, one for each contact node
   std::vector<BodyTouch> touches;     ///< of bodies with each other, in the order of points, then of bodies
   std::vector<ContactBook> obstacles;
@@ -150,6 +171,7 @@ void for_each_field(S& state, Visitor&& visit) {
   visit("plastic_strain", state.plastic_strain);
   visit("flowing", state.flowing);
   visit("frequency", state.frequency);
+  visit("rigid", state.rigid);
   visit("contacts", state.contacts);
   visit("touches", state.touches);
   visit("obstacles", state.obstacles);

@@ -36,7 +36,8 @@ void hold(const Model& model, State& state, const HeldNode& held, NodeSums& sums
   if (y) record.vy = held.velocity.y;
 }
 
-/// Velocities of the coming step that the contact nodes of a block have, m/s.
+}  // namespace
+
 Box velocities_at(const Model& model, const State& state, const OuterNodes& nodes) {
   Box box;
   for (std::size_t c = nodes.contact_begin; c < nodes.contact_end; ++c) {
@@ -45,8 +46,6 @@ Box velocities_at(const Model& model, const State& state, const OuterNodes& node
   }
   return box;
 }
-
-}  // namespace
 
 NodeTask node_task(const Model& model, const State& state) {
   const Clock& clock = state.clock;

@@ -211,14 +211,25 @@ double total_mass(const Model& model) {
 
 void open_books(const Model& model, State& state) {
   Ledger& ledger = state.ledger;
-  for (Index i = 0; i < model.node_count; ++i) {
-    const Vec2 v{state.nodes[i].vx, state.nodes[i].vy};
-    ledger.start_kinetic += 0.5 * model.mass[i] * dot(v, v);
-    ledger.start_momentum += model.mass[i] * v;
-    ledger.momentum_scale += model.mass[i] * length(v);
-    const auto body = static_cast<std::size_t>(&model.body_of_node(i) - model.bodies.data());
-    state.body_momentum[body] += model.mass[i] * v;
-    state.body_spin[body] += model.mass[i] * cross(Vec2{state.nodes[i].x, state.nodes[i].y}, v);
+  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
+    const Body& body = model.bodies[b];
+    for (Index i = body.node_begin; i < body.node_end; ++i) {
+      const Vec2 v{state.nodes[i].vx, state.nodes[i].vy};
+      ledger.momentum_scale += model.mass[i] * length(v);
+      if (body.rigid) continue;
+      ledger.start_kinetic += 0.5 * model.mass[i] * dot(v, v);
+      ledger.start_momentum += model.mass[i] * v;
+      state.body_momentum[b] += model.mass[i] * v;
+      state.body_spin[b] += model.mass[i] * cross(place(state, i), v);
+    }
+  }
+  for (std::size_t k = 0; k < model.rigid_bodies.size(); ++k) {
+    const RigidBody& rigid = model.rigid_bodies[k];
+    const RigidRate& v = state.rigid[k].velocity;
+    ledger.start_kinetic += 0.5 * (rigid.mass * dot(v.linear, v.linear) + rigid.inertia * v.angular * v.angular);
+    ledger.start_momentum += rigid.mass * v.linear;
+    state.body_momentum[rigid.body] = rigid.mass * v.linear;
+    state.body_spin[rigid.body] = rigid.mass * cross(rigid.centre, v.linear) + rigid.inertia * v.angular;
   }
   ledger.half_step_kinetic = ledger.start_kinetic;
   ledger.carried = ledger.start_momentum;

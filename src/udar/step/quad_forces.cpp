@@ -56,6 +56,7 @@ void QuadForces::plan(const Model& model, const Pool& pool) {
   std::vector<std::size_t> needed_until(element_blocks_);  // one beyond the element block after which it is summed
   for (std::size_t n = 0; n < reach.size(); ++n) {
     const auto [first, last] = reach[n];
+    if (first > last) continue;  // of a rigid body
     const bool early = first <= last && pool.run_of(element_blocks_, first) == pool.run_of(element_blocks_, last);
     if (early) {
       early_.push_back({last, n});

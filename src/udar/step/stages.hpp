@@ -12,6 +12,7 @@ void advance_clock(const Model& model, State& state);
 void set_loads(const Model& model, State& state);
 void set_supports(const Model& model, const State& state, Workspace& work);
 void touch_bodies(const Model& model, State& state, Workspace& work);
+void move_rigid_bodies(const Model& model, State& state, Workspace& work);
 void sweep(const Model& model, State& state, Workspace& work);
 void choose_time_step(const Model& model, State& state, const Workspace& work);
 void close_books(const Model& model, State& state, Workspace& work);
@@ -26,6 +27,9 @@ void accelerate_nodes(const Model& model, State& state, Workspace& work, std::si
                       const NodeTask& common);
 /// What all blocks of nodes have in common in a step: times, weights of the integrator, gravity, damping.
 NodeTask node_task(const Model& model, const State& state);
+
+/// Velocities of the coming step that the contact nodes of a block have, m/s.
+Box velocities_at(const Model& model, const State& state, const OuterNodes& nodes);
 
 /// Part of close_books: what the springs hold and have lost, and how deep they are pressed.
 void enter_springs(const Model& model, State& state, const Workspace& work);

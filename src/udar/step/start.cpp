@@ -28,6 +28,10 @@ State rest_state(const Model& model) {
   for (auto* field : {&state.stress_xx, &state.stress_yy, &state.stress_xy, &state.stress_zz, &state.plastic_strain}) {
     field->resize(elements);
   }
+  for (const RigidBody& rigid : model.rigid_bodies) {
+    const RigidRate velocity{rigid.start_velocity, rigid.start_spin};
+    state.rigid.push_back({.place = rigid.centre, .velocity = velocity, .now = velocity});
+  }
   state.flowing.resize(elements / lanes);
   state.frequency.resize(model.element_blocks.size());
   state.contacts.resize(model.obstacles.size() * model.contact_nodes.size());

@@ -24,13 +24,14 @@ void sweep(const Model& model, State& state, Workspace& work) {
 }
 
 void step(const Model& model, State& state, Workspace& work) {
-  advance_clock(model, state);           // t_{n+1}, with the step that is already under way
-  set_loads(model, state);               // forces at t_{n+1}
-  set_supports(model, state, work);      // where held nodes have to be at t_{n+2}
-  touch_bodies(model, state, work);      // with each other and with themselves, at x_{n+1}
-  sweep(model, state, work);             // all bodies from t_n to t_{n+1}
-  choose_time_step(model, state, work);  // is h_{n+2} still safe? h_{n+3}, and who limits it
-  close_books(model, state, work);       // energy, momentum, spin; is everything still finite?
+  advance_clock(model, state);            // t_{n+1}, with the step that is already under way
+  set_loads(model, state);                // forces at t_{n+1}
+  set_supports(model, state, work);       // where held nodes have to be at t_{n+2}
+  touch_bodies(model, state, work);       // with each other and with themselves, at x_{n+1}
+  move_rigid_bodies(model, state, work);  // those that move as one piece, from t_n to t_{n+1}
+  sweep(model, state, work);              // those that deform
+  choose_time_step(model, state, work);   // is h_{n+2} still safe? h_{n+3}, and who limits it
+  close_books(model, state, work);        // energy, momentum, spin; is everything still finite?
 }
 
 void prepare(const Model& model, State& state, Workspace& work) {
@@ -40,6 +41,7 @@ void prepare(const Model& model, State& state, Workspace& work) {
   open_books(model, state);
   set_loads(model, state);
   set_supports(model, state, work);
+  move_rigid_bodies(model, state, work);
   sweep(model, state, work);
   close_books(model, state, work);
 }

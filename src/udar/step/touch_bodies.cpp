@@ -191,8 +191,20 @@ void find_touches(const Model& model, const State& state, BodyContact& contact, 
 void limit_step(const Model& model, BodyContact& contact) {
   contact.excess = 0;
   contact.dashpot = 0;
+  std::fill(contact.rigid_excess.begin(), contact.rigid_excess.end(), 0.0);
+  std::fill(contact.rigid_dashpot.begin(), contact.rigid_dashpot.end(), 0.0);
+  std::size_t rigid = 0;
   for (std::size_t c = 0; c < model.contact_nodes.size(); ++c) {
-    const double inverse_mass = model.inverse_mass[model.contact_nodes[c]];
+    const Index node = model.contact_nodes[c];
+    const double inverse_mass = model.inverse_mass[node];
+    while (rigid < model.rigid_bodies.size() && model.rigid_bodies[rigid].body < model.contact_bodies[c]) ++rigid;
+    if (rigid < model.rigid_bodies.size() && model.rigid_bodies[rigid].body == model.contact_bodies[c]) {
+      const double part = model.rigid_bodies[rigid].inverse_mass_at(model.rest[node]);
+      const double allowed = model.contact_allowance[c] * model.mass[node];
+      contact.rigid_excess[rigid] += part * std::max(0.0, contact.springs[c] - allowed);
+      contact.rigid_dashpot[rigid] += part * contact.dashpots[c];
+      continue;
+    }
     contact.excess = std::max(contact.excess, contact.springs[c] * inverse_mass - model.contact_allowance[c]);
     contact.dashpot = std::max(contact.dashpot, contact.dashpots[c] * inverse_mass);
   }
@@ -208,6 +220,8 @@ void touch_bodies(const Model& model, State& state, Workspace& work) {
   contact.pushes = !contact.near.empty() || !state.touches.empty();
   if (!contact.pushes) {
     contact.excess = contact.dashpot = 0;
+    std::fill(contact.rigid_excess.begin(), contact.rigid_excess.end(), 0.0);
+    std::fill(contact.rigid_dashpot.begin(), contact.rigid_dashpot.end(), 0.0);
     return;
   }
   for (std::size_t c = 0; c < model.contact_nodes.size(); ++c) {

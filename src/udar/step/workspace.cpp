@@ -25,7 +25,10 @@ void sort_by_node(std::vector<Entry>& entries) {
 
 }  // namespace
 
-BodyContact::BodyContact(const Model& model) : velocities(model.node_blocks.size()) {
+BodyContact::BodyContact(const Model& model)
+    : velocities(model.node_blocks.size()),
+      rigid_excess(model.rigid_bodies.size()),
+      rigid_dashpot(model.rigid_bodies.size()) {
   if (model.segments.empty()) return;
   const std::size_t points = model.contact_nodes.size();
   places.resize(points);

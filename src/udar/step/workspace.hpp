@@ -78,6 +78,8 @@ struct BodyContact {
   std::vector<PairForces> pair_forces;  ///< in the order of pair_number
   double excess = 0;                    ///< 1/s2, of their bound on frequency^2 above what elements allow for
   double dashpot = 0;                   ///< 1/s
+  std::vector<double> rigid_excess;     ///< 1/s2, the same for each rigid body
+  std::vector<double> rigid_dashpot;    ///< 1/s
 };
 
 /// Room for what a step computes and forgets, and the threads that compute it. Nothing here is State.
@@ -90,6 +92,7 @@ struct Workspace {
   std::vector<OuterNodes> outer_nodes;    ///< one for each block of nodes
   std::vector<ContactSums> contact_sums;  ///< obstacle by obstacle, one for each block of nodes
   BodyContact bodies;
+  std::vector<Vec2> rigid_forces;  ///< N, on the nodes of the rigid body that is being moved
   std::vector<ElementSums> element_sums;
   std::vector<NodeSums> node_sums;
   std::vector<LoadedNode> loaded;  ///< in the order of nodes
