@@ -83,11 +83,10 @@ void print_body_contact(const Model& model) {
   };
   const std::string usual = text({true, model.contact.friction, model.contact.stiffness});
   if (model.bodies.size() > 1) row("contact", "", "of all bodies with each other and themselves: " + usual);
-  for (std::size_t b = 0; b < model.bodies.size(); ++b) {
-    for (std::size_t a = 0; a <= b; ++a) {
-      const std::string own = text(model.body_pairs[a * model.bodies.size() + b]);
-      if (own != usual) row("", model.bodies[a].name, fmt::format("with {}: {}", model.bodies[b].name, own));
-    }
+  for (const BodyPairs::Exception& exception : model.body_pairs.exceptions) {
+    const std::string own = text(exception.pair);
+    if (own == usual) continue;
+    row("", model.bodies[exception.first].name, fmt::format("with {}: {}", model.bodies[exception.second].name, own));
   }
 }
 

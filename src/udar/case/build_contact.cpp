@@ -82,8 +82,7 @@ void allow_for_touches(Model& model) {
   for (std::size_t c = 0; c < model.contact_nodes.size(); ++c) {
     double most = 0;
     for (std::size_t other = 0; other < n; ++other) {
-      const BodyPair& pair =
-          model.body_pairs[model.pair_of(static_cast<std::uint32_t>(c), static_cast<std::uint32_t>(other))];
+      const BodyPair& pair = model.body_pair(static_cast<std::uint32_t>(c), static_cast<Index>(other));
       if (other == model.contact_bodies[c] || !pair.touch) continue;
       const double size = model.contact_node_sizes[c];
       const double automatic = 0.5 * model.contact_stiffness[c];  // at most, see touch_stiffness
@@ -139,19 +138,16 @@ void add_contact_nodes(Model& model) {
 }
 
 void add_body_pairs(Model& model, const Case& input) {
-  const std::size_t n = model.bodies.size();
-  model.body_pairs.assign(n * n, {true, input.contact.friction, input.contact.stiffness});
+  model.body_pairs.usual = {true, input.contact.friction, input.contact.stiffness};
   const auto number = [&](const std::string& name) {
     const auto found =
         std::find_if(model.bodies.begin(), model.bodies.end(), [&](const Body& b) { return b.name == name; });
-    return static_cast<std::size_t>(found - model.bodies.begin());
+    return static_cast<Index>(found - model.bodies.begin());
   };
   for (const ContactPairCase& from : input.contact_pairs) {
-    const std::size_t a = number(from.body);
-    const std::size_t b = number(from.other);
     const BodyPair pair{from.touch == ContactPairCase::Touch::yes, from.friction.value_or(input.contact.friction),
                         from.stiffness ? from.stiffness : input.contact.stiffness};
-    model.body_pairs[a * n + b] = model.body_pairs[b * n + a] = pair;
+    model.body_pairs.set(number(from.body), number(from.other), pair);
   }
   for (const RigidBody& rigid : model.rigid_bodies) model.body_pairs[rigid.body * n + rigid.body].touch = false;
   allow_for_touches(model);

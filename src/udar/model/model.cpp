@@ -1,8 +1,39 @@
 #include "udar/model/model.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace udar {
+namespace {
+
+std::pair<Index, Index> in_order(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
+
+/// The first exception that is not before the pair.
+template <class Exceptions>
+auto find_pair(Exceptions& exceptions, std::pair<Index, Index> pair) {
+  return std::lower_bound(exceptions.begin(), exceptions.end(), pair, [](const auto& e, const auto& wanted) {
+    return std::pair{e.first, e.second} < wanted;
+  });
+}
+
+}  // namespace
+
+const BodyPair& BodyPairs::look_up(Index a, Index b) const {
+  const auto wanted = in_order(a, b);
+  const auto found = find_pair(exceptions, wanted);
+  const bool own = found != exceptions.end() && std::pair{found->first, found->second} == wanted;
+  return own ? found->pair : usual;
+}
+
+void BodyPairs::set(Index a, Index b, const BodyPair& pair) {
+  const auto wanted = in_order(a, b);
+  const auto found = find_pair(exceptions, wanted);
+  if (found != exceptions.end() && std::pair{found->first, found->second} == wanted) {
+    found->pair = pair;
+  } else {
+    exceptions.insert(found, {wanted.first, wanted.second, pair});
+  }
+}
 
 const Body& Model::body_of_element(Index element) const {
   return *std::find_if(bodies.begin(), bodies.end(), [=](const Body& b) { return element < b.padded_end; });

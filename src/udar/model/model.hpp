@@ -85,6 +85,26 @@ struct BodyPair {
   std::optional<double> stiffness;  ///< N/m, of each spring; none: automatic
 };
 
+/// What holds between which bodies: the same for nearly all pairs. A table of all of them would grow with the square of
+/// the number of bodies.
+struct BodyPairs {
+  struct Exception {
+    Index first = 0;  ///< body, not above `second`
+    Index second = 0;
+    BodyPair pair;
+  };
+  BodyPair usual;
+  std::vector<Exception> exceptions;  ///< in the order of first, then second
+
+  /// Of two bodies in either order, or of a body with itself.
+  [[nodiscard]] const BodyPair& of(Index a, Index b) const { return exceptions.empty() ? usual : look_up(a, b); }
+  /// Makes an exception; of two for the same pair the later one holds.
+  void set(Index a, Index b, const BodyPair& pair);
+
+ private:
+  [[nodiscard]] const BodyPair& look_up(Index a, Index b) const;
+};
+
 /// Nodes whose motion is given. Directions not held stay free.
 struct Support {
   std::string name;
@@ -182,8 +202,8 @@ struct Model {
   /// between points with shares g (1 for one side, 1 in all for the other one) adds at most k |g| (sum of all |g|) / m
   /// at each: (sum g x)^2 <= (sum |g|) (sum |g| x^2).
   std::vector<double> contact_allowance;
-  std::vector<BodyPair> body_pairs;  ///< a square table, body by body
-  double contact_margin = 0;         ///< m, how much farther than it must the list of near segments looks
+  BodyPairs body_pairs;
+  double contact_margin = 0;  ///< m, how much farther than it must the list of near segments looks
 
   std::vector<Support> supports;
   std::vector<Load> loads;
@@ -193,14 +213,14 @@ struct Model {
   std::vector<RegionObserver> observed_regions;
   OutputSettings output;
 
-  /// Position in body_pairs of a contact node and a body.
-  [[nodiscard]] std::size_t pair_of(std::uint32_t point, std::uint32_t body) const {
-    return contact_bodies[point] * bodies.size() + body;
+  /// What holds between the body of a contact node and a body.
+  [[nodiscard]] const BodyPair& body_pair(std::uint32_t point, Index body) const {
+    return body_pairs.of(contact_bodies[point], body);
   }
   /// Of the spring between a contact node and a segment, N/m: what was given, or half that of the softer side on the
   /// node's stretch of boundary, since the other side's nodes bring the other half.
   [[nodiscard]] double touch_stiffness(std::uint32_t point, std::uint32_t segment) const {
-    const auto& given = body_pairs[pair_of(point, segments[segment].body)].stiffness;
+    const auto& given = body_pair(point, segments[segment].body).stiffness;
     if (given) return *given;
     return 0.5 * std::min(contact_stiffness[point], segment_softness[segment] * contact_node_sizes[point]);
   }

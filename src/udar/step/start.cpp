@@ -76,7 +76,7 @@ void refuse_overlapping_bodies(const Model& model) {
   for (std::uint32_t c = 0; c < model.contact_nodes.size(); ++c) {
     const Vec2 place = model.rest[model.contact_nodes[c]];
     for (std::uint32_t other = 0; other < model.bodies.size(); ++other) {
-      if (other == model.contact_bodies[c] || !model.body_pairs[model.pair_of(c, other)].touch) continue;
+      if (other == model.contact_bodies[c] || !model.body_pair(c, other).touch) continue;
       if (!boxes[other].holds(place)) continue;
       const double depth = depth_in(model, place, other);
       if (depth <= deepest_start * model.contact_node_sizes[c]) continue;

@@ -46,7 +46,7 @@ class TouchSearch {
   }
 
   void press(BodyTouch touch, const Foot& foot, std::vector<BodyTouch>& touches) {
-    const BodyPair& settings = model_.body_pairs[model_.pair_of(touch.point, touch.body)];
+    const BodyPair& settings = model_.body_pair(touch.point, touch.body);
     const SpringState before = touch.springs;
     touch.segment = foot.segment;
     touch.along = foot.along;
@@ -119,7 +119,7 @@ void drop_own_segments(const Model& model, Neighbours& near) {
     const std::uint32_t to = near.begin[point + 1];
     for (; from < to; ++from) {
       const Segment& s = model.segments[near.near[from]];
-      if (s.a == point || s.b == point || !model.body_pairs[model.pair_of(point, s.body)].touch) continue;
+      if (s.a == point || s.b == point || !model.body_pair(point, s.body).touch) continue;
       near.near[kept++] = near.near[from];
     }
     near.begin[point + 1] = kept;
