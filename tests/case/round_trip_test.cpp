@@ -29,7 +29,7 @@ class RandomCase {
       c.run.when_unstable = WhenUnstable::carry_on;
     }
     c.contact = {fraction(), positive(), maybe(positive())};
-    c.contact_pairs = {{"a", "b", static_cast<ContactPairCase::Touch>(below(2)), maybe(positive()), maybe(positive())},
+    c.contact_pairs = {{"a", "b", static_cast<ContactPairCase::Touch>(below(3)), maybe(positive()), maybe(positive())},
                        {.body = "b", .other = "b"}};
     for (const char* name : {"steel", "0-soft_one"}) {
       const Law law = below(2) == 0 ? Law(Elastic{positive(), 0.5 * fraction() - 0.01})
@@ -37,6 +37,9 @@ class RandomCase {
       c.materials.push_back({name, positive(), law});
     }
     for (const char* name : {"b", "a"}) c.bodies.push_back(body(name));
+    c.bodies.push_back(body("hammer"));
+    c.bodies.back().rigid = true;
+    c.bodies.back().cosine_mode = {};
     c.obstacles = {obstacle("one", HalfPlane{vector(), {positive(), any()}}),
                    obstacle("two", Rectangle{vector(), {positive(), positive()}}),
                    obstacle("three", Polygon{triangle()}), obstacle("four", Circle{vector(), positive()})};
@@ -92,7 +95,7 @@ class RandomCase {
     return b;
   }
   ObstacleCase obstacle(const char* name, const Shape& shape) {
-    return {name, shape, positive(), maybe(positive()), maybe(positive()), vector()};
+    return {name, shape, positive(), maybe(positive()), maybe(positive()), vector(), below(2) == 1};
   }
   Selection selection() {
     Selection s{.body = "a"};

@@ -77,7 +77,7 @@ static_assert(sizeof(BodyTouch) == 4 * sizeof(std::uint32_t) + 4 * sizeof(double
 static_assert(sizeof(ForceBook) == 4 * sizeof(Vec2) + 3 * sizeof(CompensatedSum) + sizeof(double));
 static_assert(sizeof(ContactBook) == 2 * sizeof(ForceBook) + sizeof(std::uint64_t));
 static_assert(sizeof(Ledger) ==
-              force_kinds * sizeof(ForceBook) + 6 * sizeof(CompensatedSum) + 12 * sizeof(double) + 3 * sizeof(Vec2));
+              force_kinds * sizeof(ForceBook) + 6 * sizeof(CompensatedSum) + 13 * sizeof(double) + 3 * sizeof(Vec2));
 
 /// Hash of every bit of a state (FNV-1a), in the order of `for_each_field`.
 inline std::uint64_t hash_of(const State& state) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "problem.hpp"
+#include "udar/step/motion.hpp"
 
 namespace udar::verification {
 namespace {
@@ -44,6 +45,11 @@ double contact_moment(const Run& run) {
     const SpringState& s = run.state.contacts[c];
     if (s.touches == 0) continue;
     moment += cross(place(run, run.model.contact_nodes[c]), s.normal_force + s.friction_force + s.damping_force);
+  }
+  for (const CornerTouch& touch : run.state.corner_touches) {
+    for_each_force(run.model.segments, touch, [&](std::uint32_t point, const TouchForces& f) {
+      moment += cross(place(run, run.model.contact_nodes[point]), f.total());
+    });
   }
   return moment;
 }
@@ -88,8 +94,7 @@ TEST_CASE("conservation: impact and flight") {
     while (!run.done()) {
       run.step();
       const Clock& clock = run.state.clock;
-      const double span = 0.5 * (clock.last_step + clock.next_step);
-      moment.add(span * (contact_moment(run) + mass * cross(centre_of_mass(run), g)));
+      moment.add(velocity_span(clock) * (contact_moment(run) + mass * cross(centre_of_mass(run), g)));
       const bool touches = run.state.obstacles[0].touching > 0;
       for (std::size_t k = 0; k < touched.size(); ++k) touched[k] = touched[k] || run.state.contacts[k].touches != 0;
       if (touches) flight_begin = 0;

@@ -74,18 +74,29 @@ void print_obstacles(const Model& model) {
   }
 }
 
+long long ties_between(const Model& model, Index a, Index b) {
+  return std::count_if(model.ties.begin(), model.ties.end(), [&](const Tie& tie) {
+    const Index own = model.contact_bodies[tie.point];
+    const Index other = model.segments[tie.segment].body;
+    return (own == a && other == b) || (own == b && other == a);
+  });
+}
+
 /// How bodies touch each other, and for which pairs something else holds.
 void print_body_contact(const Model& model) {
   const auto text = [](const BodyPair& pair) {
     if (!pair.touch) return std::string("do not touch");
+    if (pair.tied) return std::string("tied");
     return fmt::format("friction {:.4g}, springs {}", pair.friction,
                        pair.stiffness ? "of " + in_units(*pair.stiffness, "N/m") : "as stiff as the softer element");
   };
-  const std::string usual = text({true, model.contact.friction, model.contact.stiffness});
+  const std::string usual = text(model.body_pairs.usual);
   if (model.bodies.size() > 1) row("contact", "", "of all bodies with each other and themselves: " + usual);
   for (const BodyPairs::Exception& exception : model.body_pairs.exceptions) {
-    const std::string own = text(exception.pair);
-    if (own == usual) continue;
+    const bool rigid = exception.first == exception.second && model.bodies[exception.first].rigid;
+    std::string own = text(exception.pair);
+    if (rigid || own == usual) continue;
+    if (exception.pair.tied) own += " at " + counted(ties_between(model, exception.first, exception.second), "node");
     row("", model.bodies[exception.first].name, fmt::format("with {}: {}", model.bodies[exception.second].name, own));
   }
 }

@@ -138,18 +138,24 @@ void add_contact_nodes(Model& model) {
 }
 
 void add_body_pairs(Model& model, const Case& input) {
-  model.body_pairs.usual = {true, input.contact.friction, input.contact.stiffness};
+  model.body_pairs.usual = {.friction = input.contact.friction, .stiffness = input.contact.stiffness};
   const auto number = [&](const std::string& name) {
     const auto found =
         std::find_if(model.bodies.begin(), model.bodies.end(), [&](const Body& b) { return b.name == name; });
     return static_cast<Index>(found - model.bodies.begin());
   };
   for (const ContactPairCase& from : input.contact_pairs) {
-    const BodyPair pair{from.touch == ContactPairCase::Touch::yes, from.friction.value_or(input.contact.friction),
-                        from.stiffness ? from.stiffness : input.contact.stiffness};
-    model.body_pairs.set(number(from.body), number(from.other), pair);
+    model.body_pairs.set(number(from.body), number(from.other),
+                         {.touch = from.touch != ContactPairCase::Touch::no,
+                          .friction = from.friction.value_or(input.contact.friction),
+                          .stiffness = from.stiffness ? from.stiffness : input.contact.stiffness,
+                          .tied = from.touch == ContactPairCase::Touch::tied});
   }
-  for (const RigidBody& rigid : model.rigid_bodies) model.body_pairs[rigid.body * n + rigid.body].touch = false;
+  for (const RigidBody& rigid : model.rigid_bodies) {
+    BodyPair itself = model.body_pairs.of(rigid.body, rigid.body);
+    itself.touch = false;
+    model.body_pairs.set(rigid.body, rigid.body, itself);
+  }
   allow_for_touches(model);
 }
 
@@ -177,6 +183,19 @@ void limit_contact_steps(Model& model) {
   std::vector<double> dashpot(model.node_count);
   for (std::size_t c = 0; c < model.contact_nodes.size(); ++c) {
     spring[model.contact_nodes[c]] = model.contact_allowance[c];
+  }
+  for (const Tie& tie : model.ties) {
+    const Segment& s = model.segments[tie.segment];
+    const double size = length(model.rest[model.contact_nodes[s.b]] - model.rest[model.contact_nodes[s.a]]);
+    const double tilt = std::fabs(tie.gap) / size;
+    const double ends = std::fabs(1 - tie.along) + std::fabs(tie.along);
+    const auto add = [&](std::uint32_t point, double share) {
+      const Index node = model.contact_nodes[point];
+      spring[node] += tie.stiffness * share * (1 + ends + 2 * tilt) * model.inverse_mass[node];
+    };
+    add(tie.point, 1);
+    add(s.a, std::fabs(1 - tie.along) + tilt);
+    add(s.b, std::fabs(tie.along) + tilt);
   }
   for (const Obstacle& obstacle : model.obstacles) {
     for (std::size_t c = 0; c < model.contact_nodes.size(); ++c) {

@@ -208,6 +208,7 @@ Model build_model(const Case& input, std::vector<Mesh> meshes) {
   add_contact_nodes(model);
   add_obstacles(model, input);
   add_body_pairs(model, input);
+  add_ties(model);
   limit_contact_steps(model);
   add_supports(model, input, meshes);
   add_loads(model, input, meshes);

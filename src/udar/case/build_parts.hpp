@@ -15,6 +15,8 @@ void add_contact_nodes(Model& model);
 void add_obstacles(Model& model, const Case& input);
 /// What holds between the bodies.
 void add_body_pairs(Model& model, const Case& input);
+/// Ties the boundaries of bodies that are to stay together. Throws UserError(bad_case) where two do not touch.
+void add_ties(Model& model);
 /// What all these springs and their dashpots add to the bounds on the frequency of elements.
 void limit_contact_steps(Model& model);
 void add_supports(Model& model, const Case& input, const std::vector<Mesh>& meshes);

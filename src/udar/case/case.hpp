@@ -45,6 +45,7 @@ struct ObstacleCase {
   std::optional<double> stiffness;             ///< N/m at each node; none: from the touching element
   std::optional<double> tangential_stiffness;  ///< N/m; none: as `stiffness`
   Vec2 velocity{};                             ///< m/s, for ever
+  bool corners = true;                         ///< they push boundaries between nodes, too
 };
 
 /// Nodes or edges of a body; exactly one of the four ways. Places are those of the undeformed body.
@@ -79,7 +80,7 @@ struct LoadCase {
 struct ContactPairCase {
   std::string body;
   std::string other;
-  enum class Touch { yes, no } touch = Touch::yes;
+  enum class Touch { yes, no, tied } touch = Touch::yes;
   std::optional<double> friction;
   std::optional<double> stiffness;  ///< N/m
 };

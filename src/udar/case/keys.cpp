@@ -63,7 +63,8 @@ const Schema<ContactPairCase>& contact_pair_schema() {
           key("body", &P::body, body_name, "one of them", required),
           key("other", &P::other, NameKind{"name of a body", "plate"}, "the other one; the same for a body with itself",
               required),
-          key("touch", &P::touch, WordKind{{"yes", "no"}}, "whether they touch or pass through each other"),
+          key("touch", &P::touch, WordKind{{"yes", "no", "tied"}},
+              "whether they touch, pass through each other, or stay together for ever where they touch at the start"),
           key("friction", &P::friction, QuantityOrWordKind{friction, "auto"},
               "Coulomb's coefficient; automatic: that of `[contact]`", Need::optional, "0.1"),
           key("stiffness", &P::stiffness, QuantityOrWordKind{spring, "auto"}, "automatic: that of `[contact]`"),
@@ -152,6 +153,9 @@ const Schema<ObstacleCase>& obstacle_schema() {
               key("tangential_stiffness", &O::tangential_stiffness, QuantityOrWordKind{spring, "auto"},
                   "of the spring that sticks before it slides; automatic: as `stiffness`"),
               key("velocity", &O::velocity, velocity, "of the obstacle, for ever"),
+              key("corners", &O::corners, YesNoKind{},
+                  "its corners push the boundary of a body between two nodes; false: it pushes nodes only",
+                  Need::optional, "false"),
           },
       .alternatives = alternatives("shape", "its outline", &O::shape)};
   return schema;

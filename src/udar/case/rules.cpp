@@ -228,6 +228,10 @@ void check_contact_pairs(const Case& c, const Known& bodies, Mistakes& mistakes)
     const std::string path = join("contact.pairs", std::to_string(i));
     bodies.check(pair.body, join(path, "body"), mistakes);
     bodies.check(pair.other, join(path, "other"), mistakes);
+    if (pair.touch == ContactPairCase::Touch::tied && pair.body == pair.other) {
+      mistakes.add_unless_touched({join(path, "touch"), "a body cannot be tied to itself",
+                                   "its mesh holds it together already", "name two bodies, or leave the pair out"});
+    }
     if (seen.insert(std::minmax(pair.body, pair.other)).second) continue;
     mistakes.add_unless_touched({join(path, "other"),
                                  fmt::format("the pair {}, {} stands here twice", pair.body, pair.other),

@@ -8,8 +8,8 @@
 namespace udar {
 
 /// Where a force on a node comes from. Each has its own account of work and impulse.
-enum class ForceKind { internal, contact, friction, contact_damping, gravity, load, support, damping };
-inline constexpr std::size_t force_kinds = 8;
+enum class ForceKind { internal, contact, friction, contact_damping, tie, gravity, load, support, damping };
+inline constexpr std::size_t force_kinds = 9;
 
 /// The account of one kind of force.
 struct ForceBook {
@@ -35,6 +35,7 @@ struct Ledger {
   // Spring side.
   double contact_energy = 0;      ///< J, in normal contact springs now
   double tangential_energy = 0;   ///< J, in tangential contact springs now
+  double tie_energy = 0;          ///< J, in ties now
   CompensatedSum friction_work;   ///< J, lost in sliding
   CompensatedSum dropped_energy;  ///< J, of tangential springs whose node left or changed face
   CompensatedSum obstacle_work;   ///< J, given by moving obstacles, through the middle of the coming step
@@ -72,7 +73,7 @@ struct Ledger {
   }
   /// Everything the energy went into, J at t_n.
   [[nodiscard]] double total_energy() const {
-    return kinetic_energy + elastic_energy() + plastic_work.value() + contact_energy + tangential_energy +
+    return kinetic_energy + elastic_energy() + plastic_work.value() + contact_energy + tangential_energy + tie_energy +
            friction_work.value() + dropped_energy.value() + damped_energy();
   }
   /// The same less what came in: 0 when the books close. J at t_n.

@@ -11,6 +11,7 @@
 #include "udar/base/time_table.hpp"
 #include "udar/contact/foot.hpp"
 #include "udar/contact/shapes.hpp"
+#include "udar/contact/tie.hpp"
 #include "udar/material/laws.hpp"
 #include "udar/mesh/blocks.hpp"
 #include "udar/model/settings.hpp"
@@ -78,11 +79,26 @@ struct Obstacle {
   std::vector<double> tangential_stiffness;
 };
 
+/// A corner of an obstacle, which may dig into the boundary of a body between two of its nodes.
+struct ObstacleCorner {
+  std::uint32_t obstacle = 0;
+  Vec2 place{};        ///< m, at t = 0
+  Vec2 normal{};       ///< unit vector, the mean of those of its two faces
+  double stretch = 0;  ///< m, half of its two faces
+};
+
+/// Stiffnesses of the springs of a touch, N/m.
+struct TouchStiffness {
+  double normal = 0;
+  double tangential = 0;
+};
+
 /// What holds between two bodies, or within one.
 struct BodyPair {
   bool touch = true;
   double friction = 0;
   std::optional<double> stiffness;  ///< N/m, of each spring; none: automatic
+  bool tied = false;                ///< where they touch at the start they stay together
 };
 
 /// What holds between which bodies: the same for nearly all pairs. A table of all of them would grow with the square of
@@ -191,8 +207,9 @@ struct Model {
   std::vector<double> contact_node_sizes;  ///< m, mean length of the two boundary edges at the node
   std::vector<Obstacle> obstacles;
 
-  // Contact of bodies with each other and with themselves. Points are counted as contact_nodes; where nothing may
-  // touch, there are no segments.
+  // Contact of bodies with each other and with themselves, and of obstacles' corners with them. Points are counted as
+  // contact_nodes, then obstacle_corners; where nothing may touch, there are no segments.
+  std::vector<ObstacleCorner> obstacle_corners;
   std::vector<Index> contact_bodies;        ///< body of each contact node
   std::vector<double> contact_stiffness;    ///< N/m, of the elements at each contact node
   std::vector<Segment> segments;            ///< body by body
@@ -203,6 +220,7 @@ struct Model {
   /// at each: (sum g x)^2 <= (sum |g|) (sum |g| x^2).
   std::vector<double> contact_allowance;
   BodyPairs body_pairs;
+  std::vector<Tie> ties;      ///< in the order of points
   double contact_margin = 0;  ///< m, how much farther than it must the list of near segments looks
 
   std::vector<Support> supports;
@@ -217,13 +235,18 @@ struct Model {
   [[nodiscard]] const BodyPair& body_pair(std::uint32_t point, Index body) const {
     return body_pairs.of(contact_bodies[point], body);
   }
-  /// Of the spring between a contact node and a segment, N/m: what was given, or half that of the softer side on the
-  /// node's stretch of boundary, since the other side's nodes bring the other half.
-  [[nodiscard]] double touch_stiffness(std::uint32_t point, std::uint32_t segment) const {
-    const auto& given = body_pair(point, segments[segment].body).stiffness;
-    if (given) return *given;
-    return 0.5 * std::min(contact_stiffness[point], segment_softness[segment] * contact_node_sizes[point]);
+  [[nodiscard]] std::size_t point_count() const { return contact_nodes.size() + obstacle_corners.size(); }
+  [[nodiscard]] bool is_obstacle_corner(std::uint32_t point) const { return point >= contact_nodes.size(); }
+  [[nodiscard]] const ObstacleCorner& corner_of(std::uint32_t point) const {
+    return obstacle_corners[point - contact_nodes.size()];
   }
+  [[nodiscard]] const Obstacle& obstacle_of(std::uint32_t point) const { return obstacles[corner_of(point).obstacle]; }
+  /// Is a point tied to the boundary of a body?
+  [[nodiscard]] bool is_tied(std::uint32_t point, Index body) const;
+  /// Of the springs between a point and a place on a segment. Between bodies what was given, or half that of the softer
+  /// side on the node's stretch of boundary, since the other side's nodes bring the other half. At a corner of an
+  /// obstacle those of the obstacle's springs at the ends of the segment, less where its faces are shorter than that.
+  [[nodiscard]] TouchStiffness touch_stiffness(std::uint32_t point, std::uint32_t segment, double along) const;
   [[nodiscard]] const Body& body_of_element(Index element) const;
   [[nodiscard]] const Body& body_of_node(Index node) const;
 };

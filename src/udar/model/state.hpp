@@ -7,7 +7,7 @@
 
 #include "udar/base/array.hpp"
 #include "udar/base/vec2.hpp"
-#include "udar/contact/body_touch.hpp"
+#include "udar/contact/corner_touch.hpp"
 #include "udar/mesh/mesh.hpp"
 #include "udar/model/ledger.hpp"
 
@@ -126,9 +126,10 @@ struct State {
   Array<std::uint8_t> flowing;      ///< bit e % 8 of byte e / 8: element e flowed in the last step
   Array<FrequencyBound> frequency;  ///< one for each block of elements
 
-  std::vector<RigidMotion> rigid;     ///< one for each of Model::rigid_bodies
-  std::vector<SpringState> contacts;  ///< obstacle by obstacle, one for each contact node
-  std::vector<BodyTouch> touches;     ///< of bodies with each other, in the order of points, then of bodies
+  std::vector<RigidMotion> rigid;           ///< one for each of Model::rigid_bodies
+  std::vector<SpringState> contacts;        ///< obstacle by obstacle, one for each contact node
+  std::vector<BodyTouch> touches;           ///< of bodies with each other, in the order of points, then of bodies
+  std::vector<CornerTouch> corner_touches;  ///< the same of the corners of obstacles with bodies
   std::vector<ContactBook> obstacles;
   std::vector<ContactBook> pairs;    ///< forces on the body that comes first in the case; in the order of pair_number
   std::vector<Vec2> load_forces;     ///< N, load by load, node by node
@@ -174,6 +175,7 @@ void for_each_field(S& state, Visitor&& visit) {
   visit("rigid", state.rigid);
   visit("contacts", state.contacts);
   visit("touches", state.touches);
+  visit("corner_touches", state.corner_touches);
   visit("obstacles", state.obstacles);
   visit("pairs", state.pairs);
   visit("load_forces", state.load_forces);

@@ -19,6 +19,7 @@ LedgerSummary ledger_of(const Model& model, const State& state) {
                   .plastic = l.plastic_work.value(),
                   .stored_elastic = stored_elastic_energy(model, state),
                   .contact = l.contact_energy + l.tangential_energy,
+                  .ties = l.tie_energy,
                   .friction = l.friction_work.value(),
                   .dropped = l.dropped_energy.value(),
                   .damping = l.damped_energy(),

@@ -62,6 +62,7 @@ void for_each_member(T& s, Visit visit) {
   visit("plastic", s.plastic);
   visit("stored_elastic", s.stored_elastic);
   visit("contact", s.contact);
+  visit("ties", s.ties);
   visit("friction", s.friction);
   visit("dropped", s.dropped);
   visit("damping", s.damping);

@@ -57,6 +57,7 @@ struct LedgerSummary {
   double plastic = 0;         ///< dissipated
   double stored_elastic = 0;  ///< from the stress at the end; differs from `elastic` by the error of the step
   double contact = 0;         ///< in the contact springs
+  double ties = 0;            ///< in the springs of ties
   double friction = 0;        ///< dissipated
   double dropped = 0;         ///< in springs that were let go while loaded
   double damping = 0;         ///< dissipated
@@ -64,7 +65,7 @@ struct LedgerSummary {
   double loads = 0;           ///< work done by loads
   double supports = 0;        ///< work done by moved supports
   double obstacles = 0;       ///< work done by moving obstacles
-  double total = 0;           ///< kinetic + elastic + plastic + contact + friction + dropped + damping
+  double total = 0;           ///< kinetic + elastic + plastic + contact + ties + friction + dropped + damping
   double error = 0;
 };
 

@@ -79,7 +79,14 @@ void enter_springs(const Model& model, State& state, const Workspace& work) {
       enter(*sums);
     }
   }
+  for (const CornerTouch& touch : state.corner_touches)
+    ++state.obstacles[model.corner_of(touch.point).obstacle].touching;
   enter(work.bodies.sums);
+  ledger.tie_energy = 0;
+  for (std::size_t k = 0; k < work.bodies.tie_pulls.size(); ++k) {
+    const Vec2 stretch = work.bodies.tie_pulls[k].stretch;
+    ledger.tie_energy += 0.5 * model.ties[k].stiffness * dot(stretch, stretch);
+  }
   ledger.friction_work.add(losses.friction);
   ledger.dropped_energy.add(losses.dropped);
 }

@@ -87,14 +87,52 @@ void enter_touches(const Model& model, State& state, Workspace& work, const Book
   }
 }
 
+/// Forces of obstacles' corners on bodies, in the books of all contact; `total` and `pressing` are those of each
+/// obstacle.
+void enter_corners(const Model& model, const State& state, const Booking& booking, Account& normal, Account& friction,
+                   Account& damping, std::vector<PairForces>& obstacles) {
+  std::fill(obstacles.begin(), obstacles.end(), PairForces{});
+  for (const CornerTouch& touch : state.corner_touches) {
+    PairForces& of_obstacle = obstacles[model.corner_of(touch.point).obstacle];
+    ++of_obstacle.touching;
+    for_each_force(model.segments, touch, [&](std::uint32_t point, const TouchForces& forces) {
+      const Vec2 before = booking.before(model.contact_nodes[point]);
+      const Vec2 after = booking.after(model.contact_nodes[point]);
+      normal.add(forces.normal, before, after);
+      friction.add(forces.friction, before, after);
+      damping.add(forces.damping, before, after);
+      of_obstacle.pressing.add(forces.normal + forces.damping, before, after);
+      of_obstacle.total.add(forces.total(), before, after);
+    });
+  }
+}
+
+Account sum_ties(const Model& model, const BodyContact& contact, const Booking& booking) {
+  Account account;
+  for (std::size_t k = 0; k < contact.tie_pulls.size(); ++k) {
+    const Segment& s = model.segments[model.ties[k].segment];
+    const auto add = [&](std::uint32_t point, Vec2 force) {
+      const Index node = model.contact_nodes[point];
+      account.add(force, booking.before(node), booking.after(node));
+    };
+    add(model.ties[k].point, contact.tie_pulls[k].on_point);
+    add(s.a, contact.tie_pulls[k].on_a);
+    add(s.b, contact.tie_pulls[k].on_b);
+  }
+  return account;
+}
+
 /// Contact forces, obstacle by obstacle and touch by touch; returns the account of the moving obstacles' own work.
 Account enter_contacts(const Model& model, State& state, Workspace& work, const Booking& booking) {
   Account normal, friction, damping, obstacle_work;
   const std::size_t count = model.contact_nodes.size();
   const std::size_t blocks = model.node_blocks.size();
+  std::vector<PairForces>& corners = work.bodies.corner_forces;
+  enter_corners(model, state, booking, normal, friction, damping, corners);
   for (std::size_t o = 0; o < model.obstacles.size(); ++o) {
     const Vec2 velocity = model.obstacles[o].velocity;
-    Account total, pressing;
+    Account total = corners[o].total;
+    Account pressing = corners[o].pressing;
     for (std::size_t b = 0; b < blocks; ++b) {
       if (work.contact_sums[o * blocks + b].touching == 0) continue;
       for (std::size_t c = work.outer_nodes[b].contact_begin; c < work.outer_nodes[b].contact_end; ++c) {
@@ -118,6 +156,7 @@ Account enter_contacts(const Model& model, State& state, Workspace& work, const 
   booking.enter(normal, state.ledger.book(ForceKind::contact));
   booking.enter(friction, state.ledger.book(ForceKind::friction));
   booking.enter(damping, state.ledger.book(ForceKind::contact_damping));
+  booking.enter(sum_ties(model, work.bodies, booking), state.ledger.book(ForceKind::tie));
   return obstacle_work;
 }
 
@@ -146,7 +185,7 @@ void enter_elements_and_springs(const Model& model, State& state, const Workspac
   enter_springs(model, state, work);
   // What springs hold at the start was there before.
   if (state.clock.step == 0) {
-    ledger.start_energy = ledger.start_kinetic + ledger.contact_energy + ledger.tangential_energy;
+    ledger.start_energy = ledger.start_kinetic + ledger.contact_energy + ledger.tangential_energy + ledger.tie_energy;
   }
 }
 

@@ -34,6 +34,9 @@ Box velocities_at(const Model& model, const State& state, const OuterNodes& node
 /// Part of close_books: what the springs hold and have lost, and how deep they are pressed.
 void enter_springs(const Model& model, State& state, const Workspace& work);
 
+/// Part of touch_bodies: adds the forces of ties.
+void pull_ties(const Model& model, BodyContact& contact);
+
 // Only at the start.
 
 /// A body may start at rest on its springs, by this part of an element deep; more is a body put in the wrong place,
@@ -43,6 +46,8 @@ inline constexpr double deepest_start = 0.2;
 void find_frequencies(const Model& model, State& state, Workspace& work);
 State rest_state(const Model& model);
 void refuse_overlapping_bodies(const Model& model);
+void refuse_closed_gaps(const Model& model);
+void refuse_buried_corners(const Model& model);
 void refuse_buried_nodes(const Model& model, const State& state);
 void open_books(const Model& model, State& state);
 

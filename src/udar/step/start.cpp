@@ -1,10 +1,3 @@
-#include <fmt/core.h>
-
-#include <cmath>
-#include <limits>
-
-#include "udar/base/box.hpp"
-#include "udar/base/error.hpp"
 #include "udar/step/integrators.hpp"
 #include "udar/step/stages.hpp"
 
@@ -47,68 +40,6 @@ State rest_state(const Model& model) {
   state.body_spin.resize(model.bodies.size());
   state.body_sums.resize(model.bodies.size());
   return state;
-}
-
-namespace {
-
-/// How deep a point lies in a body at t = 0, m; 0 outside.
-double depth_in(const Model& model, Vec2 p, std::size_t body) {
-  const auto place = [&](std::uint32_t point) { return model.rest[model.contact_nodes[point]]; };
-  bool inside = false;  // by how often a ray to the right crosses the boundary
-  double nearest = std::numeric_limits<double>::infinity();
-  for (std::uint32_t s = 0; s < model.segments.size(); ++s) {
-    if (model.segments[s].body != body) continue;
-    const Vec2 a = place(model.segments[s].a);
-    const Vec2 b = place(model.segments[s].b);
-    if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) inside = !inside;
-    nearest = std::min(nearest, std::fabs(foot_on(model.segments, s, p, place).distance));
-  }
-  return inside ? nearest : 0;
-}
-
-}  // namespace
-
-void refuse_overlapping_bodies(const Model& model) {
-  std::vector<Box> boxes(model.bodies.size());
-  for (std::size_t c = 0; c < model.contact_nodes.size(); ++c) {
-    boxes[model.contact_bodies[c]].include(model.rest[model.contact_nodes[c]]);
-  }
-  for (std::uint32_t c = 0; c < model.contact_nodes.size(); ++c) {
-    const Vec2 place = model.rest[model.contact_nodes[c]];
-    for (std::uint32_t other = 0; other < model.bodies.size(); ++other) {
-      if (other == model.contact_bodies[c] || !model.body_pair(c, other).touch) continue;
-      if (!boxes[other].holds(place)) continue;
-      const double depth = depth_in(model, place, other);
-      if (depth <= deepest_start * model.contact_node_sizes[c]) continue;
-      throw UserError(
-          ExitCode::bad_case,
-          fmt::format(
-              "bodies `{}` and `{}` overlap: a node of the first at ({:.5g}, {:.5g}) m is {:.4g} m deep in the second",
-              model.bodies[model.contact_bodies[c]].name, model.bodies[other].name, place.x, place.y, depth),
-          "move one of them (`at` of its mesh), or let them pass through each other: [[contact.pairs]] with touch = "
-          "\"no\"");
-    }
-  }
-}
-
-void refuse_buried_nodes(const Model& model, const State& state) {
-  const std::size_t count = model.contact_nodes.size();
-  std::size_t worst = 0;
-  double ratio = 0;
-  for (std::size_t k = 0; k < state.contacts.size(); ++k) {
-    const double here = state.contacts[k].penetration / model.contact_node_sizes[k % count];
-    if (here <= ratio) continue;
-    ratio = here;
-    worst = k;
-  }
-  if (ratio <= deepest_start) return;
-  const Index node = model.contact_nodes[worst % count];
-  const Vec2 place = model.rest[node];
-  throw UserError(ExitCode::bad_case,
-                  fmt::format("body `{}` starts inside obstacle `{}`: its node at ({:.5g}, {:.5g}) m is {:.4g} m deep",
-                              model.body_of_node(node).name, model.obstacles[worst / count].name, place.x, place.y,
-                              state.contacts[worst].penetration),
-                  "move the body (`at` of its mesh) or the obstacle, so that they touch at most");
 }
 
 }  // namespace udar

@@ -48,6 +48,8 @@ void prepare(const Model& model, State& state, Workspace& work) {
 
 State start(const Model& model, Workspace& work) {
   refuse_overlapping_bodies(model);
+  refuse_closed_gaps(model);
+  refuse_buried_corners(model);
   State state = rest_state(model);
   prepare(model, state, work);
   refuse_buried_nodes(model, state);

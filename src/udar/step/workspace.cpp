@@ -25,12 +25,24 @@ void sort_by_node(std::vector<Entry>& entries) {
 
 }  // namespace
 
+ContactSums& ContactSums::operator+=(const ContactSums& other) {
+  touching += other.touching;
+  normal_energy += other.normal_energy;
+  tangential_energy += other.tangential_energy;
+  largest_penetration = std::max(largest_penetration, other.largest_penetration);
+  losses.friction += other.losses.friction;
+  losses.dropped += other.losses.dropped;
+  return *this;
+}
+
 BodyContact::BodyContact(const Model& model)
     : velocities(model.node_blocks.size()),
+      corner_forces(model.obstacles.size()),
       rigid_excess(model.rigid_bodies.size()),
       rigid_dashpot(model.rigid_bodies.size()) {
   if (model.segments.empty()) return;
-  const std::size_t points = model.contact_nodes.size();
+  const std::size_t points = model.point_count();
+  runs.resize((model.contact_nodes.size() + points_per_run - 1) / points_per_run);
   places.resize(points);
   forces.resize(points);
   springs.resize(points);

@@ -20,7 +20,16 @@ struct ContactSums {
   double tangential_energy = 0;    ///< J
   double largest_penetration = 0;  ///< over the length of the boundary edges at the node
   SpringLosses losses;
+
+  ContactSums& operator+=(const ContactSums& other);
 };
+
+/// Touches of a run of points, found by one thread.
+struct TouchRun {
+  std::vector<BodyTouch> found;
+  ContactSums sums;
+};
+inline constexpr std::size_t points_per_run = 256;
 
 /// A node that a load pushes.
 struct LoadedNode {
@@ -52,7 +61,7 @@ struct OuterNodes {
   std::size_t held_end = 0;
 };
 
-/// Forces between two bodies, on the one that comes first in the case.
+/// Forces between two bodies, on the one that comes first in the case; or of an obstacle's corners on bodies.
 struct PairForces {
   Account total;
   Account pressing;  ///< without friction
@@ -73,13 +82,16 @@ struct BodyContact {
   std::vector<Vec2> places;               ///< m, of the points at the end of the step
   std::vector<Vec2> forces;               ///< N, on each point
   std::vector<double> springs, dashpots;  ///< N/m and N s/m, what they add to the bounds at each point
-  std::vector<BodyTouch> found;
-  ContactSums sums;                     ///< of all touches
-  std::vector<PairForces> pair_forces;  ///< in the order of pair_number
-  double excess = 0;                    ///< 1/s2, of their bound on frequency^2 above what elements allow for
-  double dashpot = 0;                   ///< 1/s
-  std::vector<double> rigid_excess;     ///< 1/s2, the same for each rigid body
-  std::vector<double> rigid_dashpot;    ///< 1/s
+  std::vector<TouchRun> runs;             ///< of the contact nodes
+  std::vector<CornerTouch> found_corners;
+  std::vector<TiePull> tie_pulls;         ///< in the order of Model::ties
+  ContactSums sums;                       ///< of all touches
+  std::vector<PairForces> corner_forces;  ///< obstacle by obstacle
+  std::vector<PairForces> pair_forces;    ///< in the order of pair_number
+  double excess = 0;                      ///< 1/s2, of their bound on frequency^2 above what elements allow for
+  double dashpot = 0;                     ///< 1/s
+  std::vector<double> rigid_excess;       ///< 1/s2, the same for each rigid body
+  std::vector<double> rigid_dashpot;      ///< 1/s
 };
 
 /// Room for what a step computes and forgets, and the threads that compute it. Nothing here is State.
