@@ -91,6 +91,14 @@ class RandomCase {
                .velocity = vector(),
                .spin = any(),
                .mesh = meshes[below(3)]};
+    if (below(2) == 0) {
+      const auto grade = [&](auto& mesh) {
+        mesh.finest_size = mesh.element_size * fraction();
+        mesh.finest_side = mesh.side_names.back();
+        mesh.finest_within = positive();
+      };
+      std::visit(grade, b.mesh);
+    }
     if (below(2) == 0) b.cosine_mode = CosineMode{vector(), vector()};
     return b;
   }

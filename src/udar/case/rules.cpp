@@ -10,6 +10,7 @@
 #include "udar/base/text.hpp"
 #include "udar/case/ascii.hpp"
 #include "udar/case/path.hpp"
+#include "udar/mesh/grading.hpp"
 #include "udar/units/quantity.hpp"
 
 namespace udar {
@@ -137,13 +138,22 @@ void check_cells(double element_size, double room, const std::string& room_name,
   }
 }
 
+template <class Mesh>
+void check_grading_keys(const Mesh& mesh, const std::string& path, Mistakes& mistakes) {
+  if (!(mesh.element_size > 0)) return;
+  const auto fault = grading_fault(mesh);
+  if (fault) mistakes.add_unless_touched({join(path, fault->key), fault->message, fault->reason, fault->cure});
+}
+
 void check_shape(const RectangleMesh& mesh, const std::string& path, Mistakes& mistakes) {
   const double smaller = std::min(mesh.size.x, mesh.size.y);
   check_cells(mesh.element_size, smaller, "the smaller side", mesh.size.x * mesh.size.y, path, mistakes);
+  check_grading_keys(mesh, path, mistakes);
 }
 
 void check_shape(const DiscMesh& mesh, const std::string& path, Mistakes& mistakes) {
   check_cells(mesh.element_size, mesh.radius, "the radius", 3 * mesh.radius * mesh.radius, path, mistakes);
+  check_grading_keys(mesh, path, mistakes);
 }
 
 void check_shape(const RingMesh& mesh, const std::string& path, Mistakes& mistakes) {
@@ -154,6 +164,7 @@ void check_shape(const RingMesh& mesh, const std::string& path, Mistakes& mistak
                                  "make the inner radius smaller than the outer one"});
   }
   check_cells(mesh.element_size, wall, "the wall", 3 * wall * (mesh.outer_radius + mesh.inner_radius), path, mistakes);
+  check_grading_keys(mesh, path, mistakes);
 }
 
 template <class Variant>

@@ -99,6 +99,13 @@ inline constexpr bool is_section_kind = requires {
   Kind::is_section;
 };
 
+/// An Owner with all its defaults. Not inlined: g++ 12 would warn of members that other Owners have.
+template <class Owner>
+[[gnu::noinline]] const Owner& untouched() {
+  static const Owner owner{};
+  return owner;
+}
+
 /// A key called `name` for what `get` (a member pointer or a function) finds in the Owner.
 template <class Kind, class Get, class Owner>
 Key<Owner> make_key(const std::string& name, Get get, Kind kind, const std::string& doc, Need need,
@@ -123,8 +130,7 @@ Key<Owner> make_key(const std::string& name, Get get, Kind kind, const std::stri
     };
   } else {
     out.write = [get, kind](const Owner& owner, const std::string&) { return kind.write(std::invoke(get, owner)); };
-    const Owner untouched{};
-    if (!out.text.required) out.text.standard = kind.write(std::invoke(get, untouched));
+    if (!out.text.required) out.text.standard = kind.write(std::invoke(get, untouched<Owner>()));
   }
   if constexpr (requires(std::vector<TableText> & texts) { kind.describe_below(std::string(), texts); }) {
     out.describe_below = [kind](const std::string& path, std::vector<TableText>& texts) {
@@ -171,7 +177,13 @@ Key<Owner> key_of_parameter(const Parameter<Owner>& p) {
     const QuantityKind& quantity;
     Need need;
     Key<Owner> operator()(double Owner::*member) const { return key(p.name, member, quantity, p.doc, need, p.example); }
+    Key<Owner> operator()(std::optional<double> Owner::*member) const {
+      return key(p.name, member, QuantityOrWordKind{quantity, "none"}, p.doc, need, p.example);
+    }
     Key<Owner> operator()(Vec2 Owner::*member) const { return key(p.name, member, VectorKind{quantity}, p.doc, need); }
+    Key<Owner> operator()(std::optional<Vec2> Owner::*member) const {
+      return key(p.name, member, VectorKind{quantity}, p.doc, need);
+    }
     Key<Owner> operator()(std::vector<Vec2> Owner::*member) const {
       return key(p.name, member, PointsKind{quantity}, p.doc, need);
     }
@@ -181,7 +193,12 @@ Key<Owner> key_of_parameter(const Parameter<Owner>& p) {
         return kind.write(choice.get(owner));
       };
       Key<Owner> out;
-      out.text = {p.name, kind.describe(), p.required ? "" : write(Owner{}, ""), p.doc, kind.example(), p.required};
+      out.text = {p.name,
+                  kind.describe(),
+                  p.required ? "" : write(Owner{}, ""),
+                  p.doc,
+                  p.example.empty() ? kind.example() : p.example,
+                  p.required};
       out.read = [choice, kind](const Value& value, const std::string& path, Owner& owner, Mistakes& mistakes) {
         if (const auto word = kind.read_word(value, path, mistakes)) choice.set(owner, *word);
       };

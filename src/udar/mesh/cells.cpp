@@ -39,6 +39,11 @@ void check_placement(Vec2 at, double turn) {
   throw UserError(ExitCode::bad_mesh, "a mesh must be placed at a finite point and turned by at most 1e5 rad");
 }
 
+Vec2 on_circle(Vec2 p, Vec2 centre, double radius) {
+  const Vec2 arm = p - centre;
+  return centre + (radius / length(arm)) * arm;
+}
+
 void number_as_generated(Mesh& mesh) {
   mesh.node_numbers.resize(mesh.nodes.size());
   std::iota(mesh.node_numbers.begin(), mesh.node_numbers.end(), Index{0});

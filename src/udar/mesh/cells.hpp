@@ -21,6 +21,9 @@ void check_triangle_count(double triangles);
 /// Throws UserError(bad_mesh) where a place or a turn is not a finite number.
 void check_placement(Vec2 at, double turn);
 
+/// The point of a circle nearest to `p`.
+Vec2 on_circle(Vec2 p, Vec2 centre, double radius);
+
 /// Numbers nodes and triangles as they are.
 void number_as_generated(Mesh& mesh);
 

@@ -1,6 +1,11 @@
 #include "udar/mesh/disc.hpp"
 
+#include <cmath>
+#include <tuple>
+#include <utility>
+
 #include "udar/mesh/cells.hpp"
+#include "udar/mesh/grading.hpp"
 
 namespace udar {
 namespace {
@@ -24,17 +29,41 @@ void fill_ring(Index k, std::vector<std::array<Index, 3>>& triangles) {
   }
 }
 
+Mesh refined_disc(const DiscMesh& shape) {
+  Mesh mesh = ungraded(shape).generate();
+  // The base of each triangle is its side along a ring, which the triangle on the other side of that ring shares. As
+  // `fill_ring` has them it is opposite the first corner, or the second one where the inner ring has it.
+  const auto ring = [&](Index node) {
+    return node == 0 ? 0 : static_cast<Index>((3 + std::sqrt(12.0 * node - 3)) / 6);
+  };
+  for (auto& [a, b, c] : mesh.triangles) {
+    if (ring(a) == ring(c)) std::tie(a, b, c) = std::tuple(b, c, a);
+  }
+  const auto distance = [&](Vec2 x) {
+    return shape.finest_at ? length(x - *shape.finest_at) : shape.radius - length(x - shape.at);
+  };
+  return refine(std::move(mesh), grading_of(shape), shape.element_size, distance,
+                [&](const std::string&, Vec2 middle) { return on_circle(middle, shape.at, shape.radius); });
+}
+
 }  // namespace
 
 std::vector<Parameter<DiscMesh>> DiscMesh::parameters() {
-  return {{"radius", &DiscMesh::radius, dimension::length, limits::positive, "radius"},
-          {"at", &DiscMesh::at, dimension::length, {}, "centre", false},
-          {"turn", &DiscMesh::turn, dimension::angle, {-1e4, 1e4}, "turn about the centre, counter-clockwise", false},
-          {"element_size", &DiscMesh::element_size, dimension::length, limits::positive, "distance of the rings"}};
+  std::vector<Parameter<DiscMesh>> all{
+      {"radius", &DiscMesh::radius, dimension::length, limits::positive, "radius"},
+      {"at", &DiscMesh::at, dimension::length, {}, "centre", false},
+      {"turn", &DiscMesh::turn, dimension::angle, {-1e4, 1e4}, "turn about the centre, counter-clockwise", false},
+      {"element_size", &DiscMesh::element_size, dimension::length, limits::positive, "distance of the rings"}};
+  add_grading_parameters(all);
+  return all;
 }
+
+double DiscMesh::distance_outside(Vec2 point) const { return length(point - at) - radius; }
 
 Mesh DiscMesh::generate() const {
   check_placement(at, turn);
+  check_grading(*this);
+  if (finest_size) return refined_disc(*this);
   const Index rings = cells_along(radius, element_size, "radius");
   check_triangle_count(6.0 * rings * rings);
   Mesh mesh;

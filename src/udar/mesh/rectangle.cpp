@@ -1,6 +1,10 @@
 #include "udar/mesh/rectangle.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "udar/mesh/cells.hpp"
+#include "udar/mesh/grading.hpp"
 
 namespace udar {
 namespace {
@@ -81,21 +85,47 @@ std::vector<NamedEdges> name_sides(const Grid& grid) {
   return {named_path("bottom", bottom), named_path("right", right), named_path("top", top), named_path("left", left)};
 }
 
+/// Distance of a place from the finest point or side.
+DistanceTo distance_to_finest(const RectangleMesh& shape) {
+  if (shape.finest_at) return [p = *shape.finest_at](Vec2 x) { return length(x - p); };
+  const Turn q = turn_by(shape.turn);
+  const bool far = shape.finest_side == "right" || shape.finest_side == "top";
+  const bool along_x = shape.finest_side == "right" || shape.finest_side == "left";
+  const Vec2 inward = (far ? -1.0 : 1.0) * (q * (along_x ? Vec2{1, 0} : Vec2{0, 1}));
+  const Vec2 corner = far ? shape.at + q * shape.size : shape.at;
+  return [=](Vec2 x) { return dot(x - corner, inward); };
+}
+
 }  // namespace
 
 std::vector<Parameter<RectangleMesh>> RectangleMesh::parameters() {
   const Choice<RectangleMesh> cuts{{"right", "left", "alternating", "crossed"},
                                    [](RectangleMesh& m, int word) { m.diagonals = static_cast<Diagonals>(word); },
                                    [](const RectangleMesh& m) { return static_cast<int>(m.diagonals); }};
-  return {{"size", &RectangleMesh::size, dimension::length, limits::positive, "width and height"},
-          {"at", &RectangleMesh::at, dimension::length, {}, "lower left corner", false},
-          {"turn", &RectangleMesh::turn, dimension::angle, {-1e4, 1e4}, "turn about `at`, counter-clockwise", false},
-          {"element_size", &RectangleMesh::element_size, dimension::length, limits::positive, "side of a square cell"},
-          {"diagonals", cuts, dimension::number, {}, "how the cells are cut into triangles", false}};
+  std::vector<Parameter<RectangleMesh>> all{
+      {"size", &RectangleMesh::size, dimension::length, limits::positive, "width and height"},
+      {"at", &RectangleMesh::at, dimension::length, {}, "lower left corner", false},
+      {"turn", &RectangleMesh::turn, dimension::angle, {-1e4, 1e4}, "turn about `at`, counter-clockwise", false},
+      {"element_size", &RectangleMesh::element_size, dimension::length, limits::positive, "side of a square cell"},
+      {"diagonals", cuts, dimension::number, {}, "how the cells are cut into triangles", false}};
+  add_grading_parameters(all);
+  return all;
+}
+
+double RectangleMesh::distance_outside(Vec2 point) const {
+  const Turn q = turn_by(turn);
+  const Vec2 from = Turn{q.cos, -q.sin} * (point - at);
+  return std::max({-from.x, from.x - size.x, -from.y, from.y - size.y});
 }
 
 Mesh RectangleMesh::generate() const {
   check_placement(at, turn);
+  check_grading(*this);
+  if (finest_size) {
+    Mesh mesh = ungraded(*this).generate();
+    longest_side_as_base(mesh);
+    return refine(std::move(mesh), grading_of(*this), element_size, distance_to_finest(*this));
+  }
   const Grid grid{cells_along(size.x, element_size, "width"), cells_along(size.y, element_size, "height"),
                   diagonals == Diagonals::crossed};
   check_triangle_count(1.0 * grid.nx * grid.ny * (grid.centres ? 4 : 2));

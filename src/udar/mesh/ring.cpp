@@ -2,23 +2,47 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "udar/base/error.hpp"
 #include "udar/mesh/cells.hpp"
+#include "udar/mesh/grading.hpp"
 
 namespace udar {
 namespace {
 
 constexpr double whole_turn = 6.283185307179586;  // 2 pi
 
+Mesh refined_ring(const RingMesh& shape) {
+  Mesh mesh = ungraded(shape).generate();
+  longest_side_as_base(mesh);
+  const auto distance = [&](Vec2 x) {
+    if (shape.finest_at) return length(x - *shape.finest_at);
+    const double r = length(x - shape.at);
+    return shape.finest_side == "outer" ? shape.outer_radius - r : r - shape.inner_radius;
+  };
+  const auto onto = [&](const std::string& side, Vec2 middle) {
+    return on_circle(middle, shape.at, side == "outer" ? shape.outer_radius : shape.inner_radius);
+  };
+  return refine(std::move(mesh), grading_of(shape), shape.element_size, distance, onto);
+}
+
 }  // namespace
 
 std::vector<Parameter<RingMesh>> RingMesh::parameters() {
-  return {{"outer_radius", &RingMesh::outer_radius, dimension::length, limits::positive, "outer radius"},
-          {"inner_radius", &RingMesh::inner_radius, dimension::length, limits::positive, "radius of the hole"},
-          {"at", &RingMesh::at, dimension::length, {}, "centre", false},
-          {"turn", &RingMesh::turn, dimension::angle, {-1e4, 1e4}, "turn about the centre, counter-clockwise", false},
-          {"element_size", &RingMesh::element_size, dimension::length, limits::positive, "side of a cell"}};
+  std::vector<Parameter<RingMesh>> all{
+      {"outer_radius", &RingMesh::outer_radius, dimension::length, limits::positive, "outer radius"},
+      {"inner_radius", &RingMesh::inner_radius, dimension::length, limits::positive, "radius of the hole"},
+      {"at", &RingMesh::at, dimension::length, {}, "centre", false},
+      {"turn", &RingMesh::turn, dimension::angle, {-1e4, 1e4}, "turn about the centre, counter-clockwise", false},
+      {"element_size", &RingMesh::element_size, dimension::length, limits::positive, "side of a cell"}};
+  add_grading_parameters(all);
+  return all;
+}
+
+double RingMesh::distance_outside(Vec2 point) const {
+  const double r = length(point - at);
+  return std::max(r - outer_radius, inner_radius - r);
 }
 
 Mesh RingMesh::generate() const {
@@ -27,6 +51,8 @@ Mesh RingMesh::generate() const {
     throw UserError(ExitCode::bad_mesh, "the inner radius of a ring must be above 0 and below its outer radius",
                     "for a whole disc take shape = \"disc\"");
   }
+  check_grading(*this);
+  if (finest_size) return refined_ring(*this);
   const Index layers = cells_along(outer_radius - inner_radius, element_size, "width of the ring");
   const double middle = 0.5 * (inner_radius + outer_radius);
   // An even number, so that the diagonals alternate all the way round; below six the inner circle is hardly one.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -41,7 +42,9 @@ struct Choice {
 template <class Owner>
 struct Parameter {
   std::string name;
-  std::variant<double Owner::*, Vec2 Owner::*, std::vector<Vec2> Owner::*, Choice<Owner>> member;
+  std::variant<double Owner::*, std::optional<double> Owner::*, Vec2 Owner::*, std::optional<Vec2> Owner::*,
+               std::vector<Vec2> Owner::*, Choice<Owner>>
+      member;
   Dimension dimension{};
   Limits limits{};
   std::string doc;
