@@ -1,0 +1,159 @@
+// hertz: an elastic cylinder pressed onto a rigid plane, against Hertz's solution. See README.md.
+
+#include <doctest/doctest.h>
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "wave_tools.hpp"
+
+namespace udar::verification {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double radius = 0.05;                      // m
+constexpr double modulus = 200e9 / (1 - 0.3 * 0.3);  // Pa, E / (1 - nu^2)
+constexpr double spring = 1.2e12;                    // N/m at each node
+
+/// What Hertz (1882) says for the force P, N for 1 m.
+struct Exact {
+  explicit Exact(double force)
+      : half_width(std::sqrt(4 * force * radius / (pi * modulus))), pressure(2 * force / (pi * half_width)) {}
+  double half_width;  ///< m
+  double pressure;    ///< Pa, the largest
+  [[nodiscard]] double shear() const { return 0.3003 * pressure; }
+  [[nodiscard]] double depth() const { return 0.7861 * half_width; }
+};
+
+struct Pressed {
+  double force = 0;        ///< N, of the plane on the cylinder
+  double half_width = 0;   ///< m, from the second moment of the contact forces
+  double edge = 0;         ///< m, the outermost node that touches
+  double pressure = 0;     ///< Pa, at the lowest node
+  double shear = 0;        ///< Pa, the largest below the contact
+  double depth = 0;        ///< m, where it is
+  double penetration = 0;  ///< m, the largest
+  double approach = 0;     ///< m, of the centre to the plane
+  double kinetic = 0;      ///< over internal energy
+  double lopsided = 0;     ///< m, first moment of the contact forces over their sum
+};
+
+void measure_contact(const Run& run, Pressed& out) {
+  const State& s = run.state;
+  std::map<double, double> forces;  // from left to right
+  double second = 0, first = 0;
+  for (std::size_t c = 0; c < run.model.contact_nodes.size(); ++c) {
+    const double x = s.nodes[run.model.contact_nodes[c]].x;
+    const double f = s.contacts[c].normal_force.y;
+    if (f <= 0) continue;
+    forces[x] = f;
+    out.force += f;
+    first += f * x;
+    second += f * x * x;
+    out.edge = std::max(out.edge, std::fabs(x));
+    out.penetration = std::max(out.penetration, s.contacts[c].penetration);
+  }
+  // Where p = p0 sqrt(1 - x^2 / b^2), the mean of x^2 is b^2 / 4.
+  out.half_width = 2 * std::sqrt(second / out.force);
+  out.lopsided = first / out.force;
+  auto lowest = forces.begin();
+  for (auto it = forces.begin(); it != forces.end(); ++it) {
+    if (std::fabs(it->first) < std::fabs(lowest->first)) lowest = it;
+  }
+  out.pressure = lowest->second / (0.5 * (std::next(lowest)->first - std::prev(lowest)->first));
+}
+
+/// Largest shear in the plane on the axis: means over the elements of each row, and a parabola through the largest.
+void measure_shear(const Run& run, double half_width, double row, Pressed& out) {
+  const State& s = run.state;
+  struct Row {
+    double shear = 0, depth = 0;
+    int count = 0;
+  };
+  std::vector<Row> rows(static_cast<std::size_t>(2 * half_width / row));
+  for (Index e = 0; e < run.model.element_count; ++e) {
+    const Vec2 from = rest_centroid(run.model, e);
+    const auto at = static_cast<std::size_t>(from.y / row);
+    if (std::fabs(from.x) > row || at >= rows.size()) continue;
+    double depth = 0;
+    for (const Index node : run.model.corners[e]) depth += s.nodes[node].y / 3;
+    rows[at].shear += std::hypot(0.5 * (s.stress_xx[e] - s.stress_yy[e]), s.stress_xy[e]);
+    rows[at].depth += depth;
+    ++rows[at].count;
+  }
+  std::size_t top = 1;
+  for (Row& r : rows) {
+    r.shear /= r.count;
+    r.depth /= r.count;
+  }
+  for (std::size_t k = 1; k + 1 < rows.size(); ++k) {
+    if (rows[k].shear > rows[top].shear) top = k;
+  }
+  const double before = rows[top - 1].shear - rows[top].shear;
+  const double after = rows[top + 1].shear - rows[top].shear;
+  const double way = 0.5 * (before - after) / (before + after);  // in rows
+  out.depth = rows[top].depth + way * 0.5 * (rows[top + 1].depth - rows[top - 1].depth);
+  out.shear = rows[top].shear - 0.25 * (before - after) * way;
+}
+
+/// `part` of the width and so its square of the force, elements of `h`.
+Pressed press(double part, double h) {
+  Case input = load("hertz.toml");
+  auto& mesh = std::get<DiscMesh>(input.bodies[0].mesh);
+  mesh.finest_size = h;
+  mesh.finest_within *= part;
+  input.loads[0].value.y *= part * part;
+  Run run(input);
+  Index centre = 0;
+  for (Index i = 0; i < run.model.node_count; ++i) {
+    if (length(run.model.rest[i] - Vec2{0, radius}) < 1e-9) centre = i;
+  }
+  run.run();
+  Pressed out;
+  measure_contact(run, out);
+  measure_shear(run, Exact(out.force).half_width, h, out);
+  out.approach = -run.displacement(centre).y;
+  out.kinetic = run.state.ledger.kinetic_energy / run.state.ledger.elastic_energy();
+  return out;
+}
+
+/// Elements are `coarse` times those of the case file, which are a tenth of the half-width.
+void check_press(double part, double coarse) {
+  const double h = coarse * 0.26e-3 * part;
+  const Pressed p = press(part, h);
+  const Exact exact(p.force);
+  const double b = exact.half_width;
+  // Large strains: Hertz's are infinitely small; p0 / E' = b / 2 R.
+  const double large = b / (2 * radius);
+  // Springs of stiffness k on every pi / 3 h sink in by s = pi / 3 h p / k. In cos(theta) = x / b, s sqrt(1 - x^2/b^2)
+  // is 8 / 3 pi of a parabola in cos(2 theta), which flattens the cylinder: R and b^2 grow by that part of s over the
+  // height of the shape, b^2 / 2 R.
+  const double sunk = pi / 3 * h * exact.pressure / spring / (b * b / (2 * radius));
+  const double soft = 0.5 * 8 / (3 * pi) * sunk;
+  // The mesh cannot follow the root at the edge: the force on the last half element, over that on the half-width, is
+  // (4 / 3) sqrt(2) / (pi / 2) (h / 2 b)^1.5 = 0.42 (h / b)^1.5. b and p0 hang together by P = pi b p0 / 2.
+  const double edge = 0.42 * std::pow(h / b, 1.5);
+  const double bound = large + soft + edge;
+  CHECK(within("half-width (m)", p.half_width, b, bound));
+  CHECK(within("outermost node (m)", p.edge, b, bound + h / b));
+  CHECK(within("peak pressure (Pa)", p.pressure, exact.pressure, bound));
+  // Means over rows of triangles are right to the second order.
+  CHECK(within("largest shear (Pa)", p.shear, exact.shear(), bound + h * h / (b * b)));
+  CHECK(within("its depth (m)", p.depth, exact.depth(), bound + h / exact.depth()));
+  CHECK(below("penetration over approach", p.penetration / p.approach, 0.02));
+  CHECK(below("kinetic over internal energy", p.kinetic, 0.01));
+  // Symmetry: the two flanks of mesh and load mirror each other but for rounding, which contact does not make grow.
+  CHECK(below("middle of the force over half-width", std::fabs(p.lopsided) / b, 1e-6));
+}
+
+}  // namespace
+
+TEST_CASE("hertz: five elements in the half-width") { check_press(1, 2); }
+TEST_CASE("hertz: ten elements in the half-width") { check_press(1, 1); }
+TEST_CASE("hertz: twenty elements in the half-width (long)") { check_press(1, 0.5); }
+TEST_CASE("hertz: a quarter of the width (long)") { check_press(0.25, 1); }
+
+}  // namespace udar::verification
