@@ -229,6 +229,11 @@ std::vector<Bad> bad_texts() {
        beam_with("element_size = \"0.25 cm\"",
                  "element_size = \"0.25 cm\", finest_size = \"1 mm\", finest_at = [\"0 cm\", \"-1 cm\"]"),
        {"the finest place lies outside the body", "by 0.01 m", "give a point of the body"}},
+      {"finest elements too many",
+       beam_with(
+           "element_size = \"0.25 cm\"",
+           "element_size = \"0.25 cm\", finest_size = \"10 nm\", finest_side = \"top\", finest_within = \"1 cm\""),
+       {"far too many elements", "a smaller finest_within"}},
       {"side of another shape",
        beam_with("element_size = \"0.25 cm\"",
                  "element_size = \"0.25 cm\", finest_size = \"1 mm\", finest_side = \"outer\""),

@@ -95,7 +95,7 @@ class RandomCase {
       const auto grade = [&](auto& mesh) {
         mesh.finest_size = mesh.element_size * fraction();
         mesh.finest_side = mesh.side_names.back();
-        mesh.finest_within = positive();
+        mesh.finest_within = mesh.element_size;
       };
       std::visit(grade, b.mesh);
     }

@@ -119,12 +119,13 @@ void check_shape(const HalfPlane& shape, const std::string& path, Mistakes& mist
       {join(path, "normal"), "the normal has no length", "it must point out of the obstacle", "write it like [0, 1]"});
 }
 
+constexpr double most_cells = 1e9;
+
 /// A mesh that is not of whole cells, or of far too many.
 void check_cells(double element_size, double room, const std::string& room_name, double area, const std::string& path,
                  Mistakes& mistakes) {
   const std::string key = join(path, "element_size");
   if (!(element_size > 0 && room > 0)) return;
-  constexpr double most_cells = 1e9;
   constexpr double rounding = 1 + 1e-9;
   if (element_size > room * rounding) {
     mistakes.add_unless_touched(
@@ -139,21 +140,32 @@ void check_cells(double element_size, double room, const std::string& room_name,
 }
 
 template <class Mesh>
-void check_grading_keys(const Mesh& mesh, const std::string& path, Mistakes& mistakes) {
+void check_grading_keys(const Mesh& mesh, double area, const std::string& path, Mistakes& mistakes) {
   if (!(mesh.element_size > 0)) return;
-  const auto fault = grading_fault(mesh);
-  if (fault) mistakes.add_unless_touched({join(path, fault->key), fault->message, fault->reason, fault->cure});
+  if (const auto fault = grading_fault(mesh)) {
+    mistakes.add_unless_touched({join(path, fault->key), fault->message, fault->reason, fault->cure});
+    return;
+  }
+  if (!mesh.finest_size) return;
+  // Cells one behind the other until they are no longer fine, and side by side round a point or along a side.
+  const double width = std::sqrt(area);
+  const double deep = std::min(mesh.finest_within, width) / *mesh.finest_size + 1 / (mesh.growth - 1);
+  const double broad = mesh.finest_at ? deep : width / *mesh.finest_size;
+  if (deep * broad <= most_cells) return;
+  mistakes.add_unless_touched({join(path, "finest_size"), "far too many elements",
+                               fmt::format("about {:.0e} of them", deep * broad),
+                               "choose larger elements, a smaller finest_within, or check the units"});
 }
 
 void check_shape(const RectangleMesh& mesh, const std::string& path, Mistakes& mistakes) {
   const double smaller = std::min(mesh.size.x, mesh.size.y);
   check_cells(mesh.element_size, smaller, "the smaller side", mesh.size.x * mesh.size.y, path, mistakes);
-  check_grading_keys(mesh, path, mistakes);
+  check_grading_keys(mesh, mesh.size.x * mesh.size.y, path, mistakes);
 }
 
 void check_shape(const DiscMesh& mesh, const std::string& path, Mistakes& mistakes) {
   check_cells(mesh.element_size, mesh.radius, "the radius", 3 * mesh.radius * mesh.radius, path, mistakes);
-  check_grading_keys(mesh, path, mistakes);
+  check_grading_keys(mesh, 3 * mesh.radius * mesh.radius, path, mistakes);
 }
 
 void check_shape(const RingMesh& mesh, const std::string& path, Mistakes& mistakes) {
@@ -164,7 +176,7 @@ void check_shape(const RingMesh& mesh, const std::string& path, Mistakes& mistak
                                  "make the inner radius smaller than the outer one"});
   }
   check_cells(mesh.element_size, wall, "the wall", 3 * wall * (mesh.outer_radius + mesh.inner_radius), path, mistakes);
-  check_grading_keys(mesh, path, mistakes);
+  check_grading_keys(mesh, 3 * wall * (mesh.outer_radius + mesh.inner_radius), path, mistakes);
 }
 
 template <class Variant>
