@@ -152,8 +152,8 @@ TEST_CASE("a disc graded towards a point of its circle is round there") {
     unsplit.finest_size = size;
     const double parts = smallest_angle_of_parts(generate(unsplit));
     CHECK(smallest_angle(mesh) > parts - 0.5 * 1.0472 * size);
-    INFO("disc, size " << size << ": " << mesh.triangles.size() << " triangles, smallest angle "
-                       << smallest_angle(mesh) / degree << " degrees");
+    MESSAGE("disc, size " << size << ": " << mesh.triangles.size() << " triangles, smallest angle "
+                          << smallest_angle(mesh) / degree << " degrees");
     // Near the point the circle is divided evenly, by pi/3 of the finest size.
     for (const Edge e : mesh.sides[0].edges) {
       if (length(mesh.nodes[e.a]) > 0.05) continue;
