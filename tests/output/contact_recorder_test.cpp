@@ -17,7 +17,9 @@ class Script {
   Script() : model_(build_model(two_blocks())), recorder_(model_) {
     state_.contacts.resize(model_.contact_nodes.size());
     state_.obstacles.resize(1);
-    state_.pairs.resize(pair_number(model_.bodies.size(), 0));
+    for (const Vec2 p : model_.rest) state_.nodes.push_back({p.x, p.y, 0, 0});
+    state_.body_spin.resize(2);
+    state_.body_sums.resize(2);
     state_.body_momentum = {{0, -80 * model_.bodies[0].mass}, {0, -80 * model_.bodies[1].mass}};
     recorder_.record(state_);
   }

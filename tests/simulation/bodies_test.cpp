@@ -183,6 +183,63 @@ TEST_CASE("any number of threads gives the same bits, also where bodies touch") 
   }
 }
 
+TEST_CASE("books are kept of the bodies that met, in the order of bodies, and hold all that happened to each") {
+  for (const Integrator integrator : {Integrator::central_difference, Integrator::adams}) {
+    CAPTURE(integrator == Integrator::adams);
+    // Six blocks in a row. The last two meet first, then 0 and 1, then 1 and 2; number 3 is left alone.
+    Case input = two_blocks(elastic, 0.3);
+    input.run.integrator = integrator;
+    input.run.stop_at_energy_error = 1;  // flush blocks strike node on node; here the momentum counts
+    input.run.end_time = 40e-6;
+    input.bodies.clear();
+    const double gaps[] = {4e-4, 8e-4, 0.1, 0.1, 1e-4, 0};  // m, to the next one
+    const double speeds[] = {20, 0, -20, 5, 40, 0};         // m/s
+    double x = 0;
+    for (std::size_t b = 0; b < 6; ++b) {
+      const double y = b % 2 == 0 ? 0 : 0.001;
+      input.bodies.push_back(
+          block(("block" + std::to_string(b)).c_str(), {x, y}, {0.005, 0.01}, 0.0025, {speeds[b], 0}));
+      x += 0.005 + gaps[b];
+    }
+    const Model model = build_model(input);
+    Workspace work(model, 1);
+    State state = start(model, work);
+    CHECK(state.pairs.empty());
+    std::vector<Vec2> momentum(6);
+    for (std::size_t b = 0; b < 6; ++b) momentum[b] = model.bodies[b].mass * input.bodies[b].velocity;
+    std::vector<BodyNumbers> met;
+    double worst = 0;
+    while (!finished(model, state)) {
+      step(model, state, work);
+      for (const PairBook& pair : state.pairs) {
+        const auto one = bodies_of(pair);
+        if (std::find(met.begin(), met.end(), one) == met.end()) met.push_back(one);
+      }
+      std::vector<Vec2> apart = momentum;
+      std::uint64_t touching = 0;
+      for (const PairBook& pair : state.pairs) {
+        apart[pair.first] += pair.book.total.impulse();
+        apart[pair.second] -= pair.book.total.impulse();
+        touching += pair.book.touching;
+      }
+      CHECK(touching == state.touches.size());
+      for (std::size_t b = 0; b < 6; ++b) {
+        const Vec2 now = integrator == Integrator::adams ? state.body_sums[b].momentum : state.body_momentum[b];
+        worst = std::max(worst, length(apart[b] - now));
+      }
+    }
+    CHECK(met == std::vector<BodyNumbers>{{4, 5}, {0, 1}, {1, 2}});
+    REQUIRE(state.pairs.size() == 3);
+    CHECK(bodies_of(state.pairs[0]) == BodyNumbers{0, 1});
+    CHECK(bodies_of(state.pairs[1]) == BodyNumbers{1, 2});
+    CHECK(bodies_of(state.pairs[2]) == BodyNumbers{4, 5});
+    CHECK(book_of_pair(state, 5, 4) == &state.pairs[2].book);
+    CHECK(book_of_pair(state, 3, 4) == nullptr);
+    CHECK(length(state.pairs[2].book.total.impulse()) > 0.1 * length(momentum[4]));
+    CHECK(worst < 1e-12 * length(momentum[4]));
+  }
+}
+
 TEST_CASE("a body folds onto itself: its arms strike each other") {
   // A ring that a block crushes flat on an anvil.
   Case input{

@@ -65,9 +65,8 @@ void StatusLine::print(const Model& model, const State& state, const std::string
         fmt::format("dt/{}", step_unit_.name), "limited by", "energy err", "contacts");
   }
   std::uint64_t contacts = 0;
-  for (const auto* books : {&state.obstacles, &state.pairs}) {
-    for (const ContactBook& book : *books) contacts += book.touching;
-  }
+  for (const ContactBook& obstacle : state.obstacles) contacts += obstacle.touching;
+  for (const PairBook& pair : state.pairs) contacts += pair.book.touching;
   print_line(fmt::format("{:>9} {:>9.4f} {:>4.0f}  {:<6} {:>7.4g}  {:<25} {:>8.2g} % {:>9}", clock.step,
                          unit_.per_second * clock.time.value(),
                          std::floor(100 * clock.time.value() / model.run.end_time), left,

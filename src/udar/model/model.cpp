@@ -1,37 +1,21 @@
 #include "udar/model/model.hpp"
 
 #include <algorithm>
-#include <utility>
+
+#include "udar/model/find_pair.hpp"
 
 namespace udar {
-namespace {
-
-std::pair<Index, Index> in_order(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
-
-/// The first exception that is not before the pair.
-template <class Exceptions>
-auto find_pair(Exceptions& exceptions, std::pair<Index, Index> pair) {
-  return std::lower_bound(exceptions.begin(), exceptions.end(), pair, [](const auto& e, const auto& wanted) {
-    return std::pair{e.first, e.second} < wanted;
-  });
-}
-
-}  // namespace
-
 const BodyPair& BodyPairs::look_up(Index a, Index b) const {
-  const auto wanted = in_order(a, b);
-  const auto found = find_pair(exceptions, wanted);
-  const bool own = found != exceptions.end() && std::pair{found->first, found->second} == wanted;
-  return own ? found->pair : usual;
+  const Exception* const own = entry_of(exceptions, in_order(a, b));
+  return own != nullptr ? own->pair : usual;
 }
 
 void BodyPairs::set(Index a, Index b, const BodyPair& pair) {
-  const auto wanted = in_order(a, b);
-  const auto found = find_pair(exceptions, wanted);
-  if (found != exceptions.end() && std::pair{found->first, found->second} == wanted) {
-    found->pair = pair;
+  const BodyNumbers bodies = in_order(a, b);
+  if (Exception* const own = entry_of(exceptions, bodies)) {
+    own->pair = pair;
   } else {
-    exceptions.insert(found, {wanted.first, wanted.second, pair});
+    exceptions.insert(find_pair(exceptions.begin(), exceptions.end(), bodies), {bodies.first, bodies.second, pair});
   }
 }
 

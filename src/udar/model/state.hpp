@@ -9,6 +9,7 @@
 #include "udar/base/vec2.hpp"
 #include "udar/contact/corner_touch.hpp"
 #include "udar/mesh/mesh.hpp"
+#include "udar/model/find_pair.hpp"
 #include "udar/model/ledger.hpp"
 
 namespace udar {
@@ -29,10 +30,12 @@ struct ContactBook {
   std::uint64_t touching = 0;  ///< nodes now
 };
 
-/// Position of a pair of bodies, or of a body with itself, in State::pairs.
-constexpr std::size_t pair_number(std::size_t a, std::size_t b) {
-  return a < b ? b * (b + 1) / 2 + a : a * (a + 1) / 2 + b;
-}
+/// What two bodies have done to each other, or a body to itself.
+struct PairBook {
+  Index first = 0;  ///< body, not above `second`
+  Index second = 0;
+  ContactBook book;  ///< forces on the first
+};
 
 /// Rates of the motion of a rigid body: of its centre of mass, and of its turn.
 struct RigidRate {
@@ -131,7 +134,7 @@ struct State {
   std::vector<BodyTouch> touches;           ///< of bodies with each other, in the order of points, then of bodies
   std::vector<CornerTouch> corner_touches;  ///< the same of the corners of obstacles with bodies
   std::vector<ContactBook> obstacles;
-  std::vector<ContactBook> pairs;    ///< forces on the body that comes first in the case; in the order of pair_number
+  std::vector<PairBook> pairs;       ///< only those that have touched; in the order of first, then second body
   std::vector<Vec2> load_forces;     ///< N, load by load, node by node
   std::vector<Vec2> support_forces;  ///< N, support by support, node by node
   std::vector<Vec2> body_momentum;   ///< kg m/s, one for each body: sum of m times the velocity over the coming step
@@ -154,6 +157,12 @@ inline Vec2 velocity(const State& state, Index node) {
 
 /// Did this element flow in the last step?
 inline bool flows(const State& state, Index element) { return (state.flowing[element / 8] >> element % 8 & 1) != 0; }
+
+/// The book of two bodies in either order, or of a body with itself; nullptr if they never touched.
+inline const ContactBook* book_of_pair(const State& state, Index a, Index b) {
+  const PairBook* const found = entry_of(state.pairs, in_order(a, b));
+  return found != nullptr ? &found->book : nullptr;
+}
 
 /// Names every array of the state once: for hashing its bits, finding what is not a number, counting memory, saving.
 template <class S, class Visitor>

@@ -5,6 +5,9 @@
 namespace udar {
 namespace {
 
+/// Gaps shorter than this part of the whole contact do not part episodes.
+constexpr double shortest_gap = 0.02;
+
 /// From the first touch until `part` of the final impulse has been given, s.
 double time_of_part(const std::vector<double>& time, const std::vector<Vec2>& impulse, double part) {
   const double wanted = part * length(impulse.back());
@@ -13,117 +16,208 @@ double time_of_part(const std::vector<double>& time, const std::vector<Vec2>& im
   return time[k];
 }
 
+/// What presses a node in the coming half and the last half of a step, N s.
+double normal_impulse(const SpringState& springs, const Clock& clock) {
+  return 0.5 * (clock.last_step + clock.next_step) * length(springs.normal_force + springs.damping_force);
+}
+
 }  // namespace
 
-ContactRecorder::ContactRecorder(const Model& model) : model_(model) {
-  for (std::size_t o = 0; o < model.obstacles.size(); ++o) {
-    partners_.push_back({.name = model.obstacles[o].name, .book = o, .touches = {}, .curve = {}});
-  }
-  for (std::size_t second = 0; second < model.bodies.size() && !model.segments.empty(); ++second) {
-    for (std::size_t first = 0; first <= second; ++first) {
-      partners_.push_back({.name = model.bodies[first].name + "/" + model.bodies[second].name,
-                           .book = pair_number(first, second),
-                           .two_bodies = true,
-                           .first = first,
-                           .second = second,
-                           .touches = {},
-                           .curve = {}});
-    }
+ContactRecorder::ContactRecorder(const Model& model) : model_(model), now_(model.bodies.size()) {
+  for (const Obstacle& obstacle : model.obstacles) {
+    obstacles_.push_back({.obstacle = &obstacle, .touches = {}, .curve = {}});
   }
   for (const Body& body : model.bodies) {
-    Vec2& start = last_momentum_.emplace_back();
-    for (Index i = body.node_begin; i < body.node_end; ++i) start += model.mass[i] * model.start_velocity[i];
+    BodyNow& start = last_.emplace_back();
+    Vec2 position;
+    for (Index i = body.node_begin; i < body.node_end; ++i) {
+      const Vec2 momentum = model.mass[i] * model.start_velocity[i];
+      position += model.mass[i] * model.rest[i];
+      start.motion.momentum += momentum;
+      start.motion.spin += cross(model.rest[i], momentum);
+    }
+    start.centre = (1 / body.mass) * position;
+    start.motion.spin -= cross(start.centre, start.motion.momentum);
+  }
+}
+
+void ContactRecorder::look_at_bodies(const State& state) {
+  for (std::size_t b = 0; b < now_.size(); ++b) {
+    const Vec2 centre = (1 / model_.bodies[b].mass) * state.body_sums[b].position;
+    const Vec2 momentum = state.body_momentum[b];
+    now_[b] = {centre, {momentum, state.body_spin[b] - cross(centre, momentum)}};
   }
 }
 
 void ContactRecorder::record(const State& state) {
-  const double time = state.clock.time.value();
-  for (Partners& partners : partners_) {
-    const ContactBook& book = (partners.two_bodies ? state.pairs : state.obstacles)[partners.book];
-    auto& touches = partners.touches;
-    const bool lasts = !touches.empty() && !touches.back().over;
-    if (book.touching > 0) {
-      if (!lasts) {
-        touches.push_back({.begin = time,
-                           .impulse_before = touches.empty() ? Vec2{} : touches.back().impulse_after,
-                           .normal_before = touches.empty() ? Vec2{} : touches.back().normal_after,
-                           .momentum_before = last_momentum_,
-                           .touched = std::vector<bool>(model_.bodies.size())});
-      }
-      touch_step(partners, book, state);
-    } else if (lasts) {
-      touches.back().end = time;
-      touches.back().over = true;
-      touches.back().momentum_after = state.body_momentum;
-    }
+  look_at_bodies(state);
+  for (std::size_t o = 0; o < obstacles_.size(); ++o) {
+    follow(obstacles_[o], state.obstacles[o], state);
+    if (state.obstacles[o].touching > 0) press_obstacle(o, state);
   }
-  last_momentum_ = state.body_momentum;
+  auto partners = pairs_.begin();
+  for (const PairBook& pair : state.pairs) {
+    while (partners != pairs_.end() && bodies_of(*partners) < bodies_of(pair)) ++partners;
+    if (partners == pairs_.end() || bodies_of(*partners) != bodies_of(pair)) {
+      partners = pairs_.insert(partners, {.first = pair.first, .second = pair.second, .touches = {}, .curve = {}});
+    }
+    follow(*partners, pair.book, state);
+  }
+  press_bodies(state);
+  std::swap(last_, now_);
 }
 
-void ContactRecorder::touch_step(Partners& partners, const ContactBook& book, const State& state) {
+void ContactRecorder::follow(Partners& partners, const ContactBook& book, const State& state) {
+  const double time = state.clock.time.value();
+  const bool lasts = !partners.touches.empty() && !partners.touches.back().over;
+  if (!lasts && book.touching == 0) return;
+  if (!lasts) begin_touch(partners, time);
+
   Touch& touch = partners.touches.back();
-  touch.end = state.clock.time.value();
+  touch.end = time;
+  for (Toucher& t : touch.touchers) {
+    if (t.touches) t.after = now_[t.body].motion;
+    t.touches = false;
+  }
+  if (book.touching == 0) {
+    touch.over = true;
+    return;
+  }
   touch.impulse_after = book.total.impulse();
   touch.normal_after = book.normal.impulse();
   touch.peak_force = std::max(touch.peak_force, length(book.total.force));
-  touch.momentum_after = state.body_momentum;
-  if (partners.two_bodies) {
-    touch.touched[partners.first] = touch.touched[partners.second] = true;
-  } else {
-    const std::size_t first = partners.book * model_.contact_nodes.size();
-    for (std::size_t c = 0; c < model_.contact_nodes.size(); ++c) {
-      if (state.contacts[first + c].touches != 0) touch.touched[model_.contact_bodies[c]] = true;
-    }
-  }
+  draw(partners.curve, touch, state.clock.step);
+}
 
-  constexpr std::size_t most_points = 1 << 16;
-  Curve& curve = partners.curve;
-  if (state.clock.step % curve.every != 0) return;
+/// Bodies that rattle touch very often. A gap that is short against what has passed is short against the whole: it is
+/// closed at once, so that there are never more touches than gaps of 2 % have room for.
+void ContactRecorder::begin_touch(Partners& partners, double time) {
+  auto& touches = partners.touches;
+  if (!touches.empty() && time - touches.back().end < shortest_gap * (time - touches.front().begin)) {
+    touches.back().over = false;
+    ++partners.merged_gaps;
+    return;
+  }
+  touches.push_back({.begin = time,
+                     .impulse_before = touches.empty() ? Vec2{} : touches.back().impulse_after,
+                     .normal_before = touches.empty() ? Vec2{} : touches.back().normal_after,
+                     .touchers = {}});
+  if (partners.obstacle != nullptr) return;  // its touchers come one by one
+  toucher(touches.back(), partners.first);
+  toucher(touches.back(), partners.second);
+}
+
+ContactRecorder::Toucher& ContactRecorder::toucher(Touch& touch, Index body) const {
+  auto& all = touch.touchers;
+  const auto found =
+      std::lower_bound(all.begin(), all.end(), body, [](const Toucher& t, Index wanted) { return t.body < wanted; });
+  if (found != all.end() && found->body == body) return *found;
+  const Motion before = last_[body].motion;
+  return *all.insert(found, {.body = body, .before = before, .after = before});
+}
+
+void ContactRecorder::press(Touch& touch, Index body, Vec2 place, double impulse) {
+  Toucher& t = toucher(touch, body);
+  t.touches = true;
+  t.after = now_[body].motion;
+  t.pressed += impulse;
+  t.arm += impulse * (place - now_[body].centre);
+}
+
+void ContactRecorder::press_obstacle(std::size_t obstacle, const State& state) {
+  const SpringState* const springs = state.contacts.data() + obstacle * model_.contact_nodes.size();
+  for (std::size_t c = 0; c < model_.contact_nodes.size(); ++c) {
+    if (springs[c].touches == 0) continue;
+    press(obstacles_[obstacle].touches.back(), model_.contact_bodies[c], place(state, model_.contact_nodes[c]),
+          normal_impulse(springs[c], state.clock));
+  }
+}
+
+void ContactRecorder::press_bodies(const State& state) {
+  Partners* partners = nullptr;
+  for (const BodyTouch& touch : state.touches) {
+    const BodyNumbers bodies = in_order(model_.contact_bodies[touch.point], touch.body);
+    if (partners == nullptr || bodies_of(*partners) != bodies) partners = entry_of(pairs_, bodies);
+    const Vec2 where = place(state, model_.contact_nodes[touch.point]);
+    const double impulse = normal_impulse(touch.springs, state.clock);
+    press(partners->touches.back(), bodies.first, where, impulse);
+    if (bodies.second != bodies.first) press(partners->touches.back(), bodies.second, where, impulse);
+  }
+}
+
+/// A point of the curve, and half as many of all where they are too many: a thousand points of each of very many
+/// partners would take more memory than the run.
+void ContactRecorder::draw(Curve& curve, const Touch& touch, std::uint64_t step) const {
+  constexpr std::size_t most = 1 << 16;
+  constexpr std::size_t fewest = 1 << 9;
+  constexpr std::size_t points_of_all = 1 << 20;
+  const std::size_t room = std::clamp(points_of_all / (obstacles_.size() + pairs_.size()), fewest, most);
+  if (step % curve.every != 0) return;
   curve.time.push_back(touch.end);
   curve.impulse.push_back(touch.impulse_after);
-  if (curve.time.size() < most_points) return;
+  if (curve.time.size() < room) return;
   for (std::size_t k = 0; 2 * k < curve.time.size(); ++k) {
     curve.time[k] = curve.time[2 * k];
     curve.impulse[k] = curve.impulse[2 * k];
   }
-  curve.time.resize(curve.time.size() / 2);
-  curve.impulse.resize(curve.impulse.size() / 2);
+  curve.time.resize((curve.time.size() + 1) / 2);
+  curve.impulse.resize((curve.impulse.size() + 1) / 2);
   curve.every *= 2;
 }
 
-EpisodeSummary ContactRecorder::episode(const Partners& partners, const Touch& first, const Touch& last, double peak,
-                                        const std::vector<bool>& touched) const {
-  EpisodeSummary e{.first_touch = first.begin,
-                   .separation = last.over ? last.end : no_number,
-                   .duration = last.end - first.begin,
-                   .impulse = last.impulse_after - first.impulse_before,
-                   .peak_force = peak};
+/// Makes one touch of two that follow each other.
+void ContactRecorder::join(Touch& touch, const Touch& next) {
+  touch.end = next.end;
+  touch.over = next.over;
+  touch.impulse_after = next.impulse_after;
+  touch.normal_after = next.normal_after;
+  touch.peak_force = std::max(touch.peak_force, next.peak_force);
+  std::vector<Toucher> all;
+  auto one = touch.touchers.begin();
+  for (const Toucher& other : next.touchers) {
+    while (one != touch.touchers.end() && one->body < other.body) all.push_back(*one++);
+    Toucher& both = all.emplace_back(other);
+    if (one == touch.touchers.end() || one->body != other.body) continue;
+    both.before = one->before;
+    both.pressed += one->pressed;
+    both.arm += one->arm;
+    ++one;
+  }
+  all.insert(all.end(), one, touch.touchers.end());
+  touch.touchers = std::move(all);
+}
+
+EpisodeSummary ContactRecorder::episode(const Partners& partners, const Touch& touch) const {
+  EpisodeSummary e{.first_touch = touch.begin,
+                   .separation = touch.over ? touch.end : no_number,
+                   .duration = touch.end - touch.begin,
+                   .impulse = touch.impulse_after - touch.impulse_before,
+                   .peak_force = touch.peak_force};
   Vec2 moving;
-  if (partners.two_bodies) {
-    const auto relative = [&](const std::vector<Vec2>& momentum) {
-      const auto velocity = [&](std::size_t body) { return (1 / model_.bodies[body].mass) * momentum[body]; };
-      return velocity(partners.first) - velocity(partners.second);
-    };
-    e.velocity_before = relative(first.momentum_before);
-    e.velocity_after = relative(last.momentum_after);
+  if (partners.obstacle == nullptr) {
+    const Toucher& first = touch.touchers.front();
+    const Toucher& second = touch.touchers.back();
+    const double a = 1 / model_.bodies[first.body].mass;
+    const double b = 1 / model_.bodies[second.body].mass;
+    e.velocity_before = a * first.before.momentum - b * second.before.momentum;
+    e.velocity_after = a * first.after.momentum - b * second.after.momentum;
   } else {
     double mass = 0;
     Vec2 before;
     Vec2 after;
-    for (std::size_t b = 0; b < touched.size(); ++b) {
-      if (!touched[b]) continue;
-      mass += model_.bodies[b].mass;
-      before += first.momentum_before[b];
-      after += last.momentum_after[b];
+    for (const Toucher& t : touch.touchers) {
+      mass += model_.bodies[t.body].mass;
+      before += t.before.momentum;
+      after += t.after.momentum;
     }
     e.velocity_before = (1 / mass) * before;
     e.velocity_after = (1 / mass) * after;
-    moving = model_.obstacles[partners.book].velocity;
+    moving = partners.obstacle->velocity;
   }
   // Along the impulse of the normal forces: the direction of the push.
-  const Vec2 push = last.normal_after - first.normal_before;
+  const Vec2 push = touch.normal_after - touch.normal_before;
   const double towards = -dot(e.velocity_before - moving, push);
-  if (last.over && towards > 0) e.restitution = dot(e.velocity_after - moving, push) / towards;
+  if (touch.over && towards > 0) e.restitution = dot(e.velocity_after - moving, push) / towards;
   return e;
 }
 
@@ -135,6 +229,7 @@ ContactSummary ContactRecorder::summary_of(const Partners& partners) const {
   if (touches.back().over) s.last_separation = touches.back().end;
   s.duration = touches.back().end - s.first_touch;
   s.impulse = touches.back().impulse_after;
+  s.merged_gaps = partners.merged_gaps;
   if (!partners.curve.time.empty()) {
     auto time = partners.curve.time;
     auto impulse = partners.curve.impulse;
@@ -142,29 +237,25 @@ ContactSummary ContactRecorder::summary_of(const Partners& partners) const {
     impulse.push_back(s.impulse);
     s.duration_99 = time_of_part(time, impulse, 0.99) - s.first_touch;
   }
-  const double shortest_gap = 0.02 * s.duration;
   for (std::size_t k = 0; k < touches.size();) {
-    std::size_t last = k;
-    double peak = touches[k].peak_force;
-    std::vector<bool> touched = touches[k].touched;
-    while (last + 1 < touches.size() && touches[last + 1].begin - touches[last].end < shortest_gap) {
-      ++last;
+    Touch whole = touches[k++];
+    while (k < touches.size() && touches[k].begin - whole.end < shortest_gap * s.duration) {
+      join(whole, touches[k++]);
       ++s.merged_gaps;
-      peak = std::max(peak, touches[last].peak_force);
-      for (std::size_t b = 0; b < touched.size(); ++b) touched[b] = touched[b] || touches[last].touched[b];
     }
-    s.peak_force = k == 0 ? peak : std::max(s.peak_force, peak);
-    s.episodes.push_back(episode(partners, touches[k], touches[last], peak, touched));
-    k = last + 1;
+    s.peak_force = s.episodes.empty() ? whole.peak_force : std::max(s.peak_force, whole.peak_force);
+    s.episodes.push_back(episode(partners, whole));
   }
   return s;
 }
 
 std::map<std::string, ContactSummary> ContactRecorder::summary() const {
   std::map<std::string, ContactSummary> all;
-  for (const Partners& partners : partners_) {
-    // Obstacles that nobody struck are named, bodies that did not meet are not: there are too many pairs.
-    if (!partners.two_bodies || !partners.touches.empty()) all[partners.name] = summary_of(partners);
+  // Obstacles that nobody struck are named, bodies that did not meet are not: there are too many pairs.
+  for (const Partners& partners : obstacles_) all[partners.obstacle->name] = summary_of(partners);
+  for (const Partners& partners : pairs_) {
+    if (partners.touches.empty()) continue;
+    all[model_.bodies[partners.first].name + "/" + model_.bodies[partners.second].name] = summary_of(partners);
   }
   return all;
 }

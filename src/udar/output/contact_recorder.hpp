@@ -10,7 +10,8 @@
 
 namespace udar {
 
-/// Follows the touches of every obstacle and every pair of bodies: when, how long, how hard, and what came of it.
+/// Follows the touches of every obstacle and of every two bodies that meet: when, how long, how hard, and what came of
+/// it. What it keeps and does grows with what touches, not with the number of pairs there might be.
 class ContactRecorder {
  public:
   explicit ContactRecorder(const Model& model);
@@ -20,6 +21,24 @@ class ContactRecorder {
   [[nodiscard]] std::map<std::string, ContactSummary> summary() const;
 
  private:
+  /// What a body carries along.
+  struct Motion {
+    Vec2 momentum{};  ///< kg m/s
+    double spin = 0;  ///< kg m2/s, about its centre of mass
+  };
+  struct BodyNow {
+    Vec2 centre{};  ///< m, of mass
+    Motion motion;
+  };
+  /// A body in a touch.
+  struct Toucher {
+    Index body = 0;
+    bool touches = false;  ///< in the step looked at last
+    Motion before;         ///< when it first touched
+    Motion after;          ///< when it last did
+    double pressed = 0;    ///< N s, sum of the sizes of the normal impulses on its nodes
+    Vec2 arm{};            ///< N s m, sum of the same times the way from its centre of mass
+  };
   /// An interval with force.
   struct Touch {
     double begin = 0;  ///< s
@@ -29,10 +48,8 @@ class ContactRecorder {
     Vec2 impulse_after{};   ///< N s
     Vec2 normal_before{};   ///< N s, without friction
     Vec2 normal_after{};
-    double peak_force = 0;              ///< N
-    std::vector<Vec2> momentum_before;  ///< kg m/s, body by body
-    std::vector<Vec2> momentum_after;
-    std::vector<bool> touched;  ///< bodies that touched
+    double peak_force = 0;          ///< N
+    std::vector<Toucher> touchers;  ///< in the order of bodies
   };
   /// Impulse so far at a time, thinned when there are many.
   struct Curve {
@@ -40,24 +57,32 @@ class ContactRecorder {
     std::vector<Vec2> impulse;  ///< N s
     std::uint64_t every = 1;    ///< steps between two points
   };
-  /// An obstacle with all bodies, or two bodies.
+  /// An obstacle with all bodies, or two bodies, or a body with itself.
   struct Partners {
-    std::string name;
-    std::size_t book = 0;  ///< in State::obstacles or State::pairs
-    bool two_bodies = false;
-    std::size_t first = 0;  ///< bodies
-    std::size_t second = 0;
+    const Obstacle* obstacle = nullptr;  ///< nullptr: bodies
+    Index first = 0;
+    Index second = 0;
     std::vector<Touch> touches;
+    int merged_gaps = 0;  ///< that are no more among the touches
     Curve curve;
   };
-  void touch_step(Partners& partners, const ContactBook& book, const State& state);
-  [[nodiscard]] EpisodeSummary episode(const Partners& partners, const Touch& first, const Touch& last, double peak,
-                                       const std::vector<bool>& touched) const;
+  void look_at_bodies(const State& state);
+  void follow(Partners& partners, const ContactBook& book, const State& state);
+  void begin_touch(Partners& partners, double time);
+  void press(Touch& touch, Index body, Vec2 place, double impulse);
+  void press_obstacle(std::size_t obstacle, const State& state);
+  void press_bodies(const State& state);
+  Toucher& toucher(Touch& touch, Index body) const;
+  void draw(Curve& curve, const Touch& touch, std::uint64_t step) const;
+  static void join(Touch& touch, const Touch& next);
+  [[nodiscard]] EpisodeSummary episode(const Partners& partners, const Touch& touch) const;
   [[nodiscard]] ContactSummary summary_of(const Partners& partners) const;
 
   const Model& model_;
-  std::vector<Partners> partners_;
-  std::vector<Vec2> last_momentum_;  ///< kg m/s, body by body, before the step
+  std::vector<Partners> obstacles_;
+  std::vector<Partners> pairs_;  ///< that have met, in the order of State::pairs
+  std::vector<BodyNow> now_;     ///< body by body
+  std::vector<BodyNow> last_;    ///< before the step
 };
 
 }  // namespace udar

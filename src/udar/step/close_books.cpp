@@ -58,8 +58,6 @@ class Booking {
 /// Forces between bodies, in the books of their pairs and in those of all contact.
 void enter_touches(const Model& model, State& state, Workspace& work, const Booking& booking, Account& normal,
                    Account& friction, Account& damping) {
-  std::vector<PairForces>& pairs = work.bodies.pair_forces;
-  std::fill(pairs.begin(), pairs.end(), PairForces{});
   for (const BodyTouch& touch : state.touches) {
     for_each_force(model.segments, touch, [&](std::uint32_t point, const TouchForces& forces) {
       const Vec2 before = booking.before(model.contact_nodes[point]);
@@ -68,22 +66,18 @@ void enter_touches(const Model& model, State& state, Workspace& work, const Book
       friction.add(forces.friction, before, after);
       damping.add(forces.damping, before, after);
     });
-    const Index body = model.contact_bodies[touch.point];
-    const double sign = body <= touch.body ? 1 : -1;
-    PairForces& pair = pairs[pair_number(body, touch.body)];
-    const Vec2 pressing = touch.springs.normal_force + touch.springs.damping_force;
-    pair.pressing.force += sign * pressing;
-    pair.total.force += sign * (pressing + touch.springs.friction_force);
-    ++pair.touching;
   }
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    ContactBook& book = state.pairs[k];
-    // Of pairs that have nothing to do with each other there may be very many.
-    const bool idle = pairs[k].touching == 0 && book.touching == 0 && book.total.past == ForceBook{}.past;
-    book.touching = pairs[k].touching;
+  sum_pair_forces(model, state, work.bodies);
+  for (std::size_t k = 0; k < state.pairs.size(); ++k) {
+    ContactBook& book = state.pairs[k].book;
+    PairForces& now = work.bodies.pair_forces[k];
+    // Of all that have met, few may touch.
+    const bool idle = now.touching == 0 && book.touching == 0 && book.total.past == ForceBook{}.past;
     if (idle) continue;
-    booking.enter(pairs[k].total, book.total);
-    booking.enter(pairs[k].pressing, book.normal);
+    book.touching = now.touching;
+    booking.enter(now.total, book.total);
+    booking.enter(now.pressing, book.normal);
+    now = {};
   }
 }
 

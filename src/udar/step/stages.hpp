@@ -33,6 +33,9 @@ Box velocities_at(const Model& model, const State& state, const OuterNodes& node
 
 /// Part of close_books: what the springs hold and have lost, and how deep they are pressed.
 void enter_springs(const Model& model, State& state, const Workspace& work);
+/// Part of close_books: adds up the forces of each pair of bodies that touch, and opens a book for those that never
+/// did.
+void sum_pair_forces(const Model& model, State& state, BodyContact& contact);
 
 /// Part of touch_bodies: adds the forces of ties.
 void pull_ties(const Model& model, BodyContact& contact);

@@ -47,7 +47,6 @@ BodyContact::BodyContact(const Model& model)
   forces.resize(points);
   springs.resize(points);
   dashpots.resize(points);
-  pair_forces.resize(pair_number(model.bodies.size(), 0));
 }
 
 Workspace::Workspace(const Model& model, int threads)

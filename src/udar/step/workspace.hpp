@@ -87,7 +87,7 @@ struct BodyContact {
   std::vector<TiePull> tie_pulls;         ///< in the order of Model::ties
   ContactSums sums;                       ///< of all touches
   std::vector<PairForces> corner_forces;  ///< obstacle by obstacle
-  std::vector<PairForces> pair_forces;    ///< in the order of pair_number
+  std::vector<PairForces> pair_forces;    ///< in the order of State::pairs; nothing between two steps
   double excess = 0;                      ///< 1/s2, of their bound on frequency^2 above what elements allow for
   double dashpot = 0;                     ///< 1/s
   std::vector<double> rigid_excess;       ///< 1/s2, the same for each rigid body
