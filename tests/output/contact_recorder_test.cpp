@@ -39,6 +39,8 @@ class Script {
     if (force != 0) state_.contacts[body == 0 ? 0 : state_.contacts.size() - 1].touches = 1;
     recorder_.record(state_);
   }
+  /// Something else gives a body this momentum upwards.
+  void drift(double momentum, std::size_t body) { state_.body_momentum[body].y += momentum; }
   void steps(int count, double force, std::size_t body = 0) {
     for (int k = 0; k < count; ++k) step(force, body);
   }
@@ -164,6 +166,21 @@ TEST_CASE("bodies that did not touch are not counted") {
   both.step(20, 1);
   both.step(0);
   CHECK(both.summary().episodes.at(0).velocity_after.y == doctest::Approx(-80 + 30 / (both.mass(0) + both.mass(1))));
+}
+
+TEST_CASE("a body counts from its own first touch to its own last one in the episode") {
+  Script script;
+  script.step(10, 0);
+  script.drift(7, 1);
+  script.step(10, 0);
+  script.step(20, 1);
+  script.drift(5, 0);
+  script.step(20, 1);
+  script.step(0);
+  const EpisodeSummary e = script.summary().episodes.at(0);
+  const double mass = script.mass(0) + script.mass(1);
+  CHECK(e.velocity_before.y == doctest::Approx(-80 + 7 / mass));
+  CHECK(e.velocity_after.y == doctest::Approx(-80 + (20 + 7 + 40) / mass));
 }
 
 TEST_CASE("many steps of contact keep their 99 % though the curve is thinned") {

@@ -1,6 +1,7 @@
 #include "udar/output/contact_recorder.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace udar {
 namespace {
@@ -38,6 +39,11 @@ ContactRecorder::ContactRecorder(const Model& model) : model_(model), now_(model
     }
     start.centre = (1 / body.mass) * position;
     start.motion.spin -= cross(start.centre, start.motion.momentum);
+    double& inertia = inertia_.emplace_back();
+    for (Index i = body.node_begin; i < body.node_end; ++i) {
+      const Vec2 arm = model.rest[i] - start.centre;
+      inertia += model.mass[i] * dot(arm, arm);
+    }
   }
 }
 
@@ -187,6 +193,42 @@ void ContactRecorder::join(Touch& touch, const Touch& next) {
   touch.touchers = std::move(all);
 }
 
+/// Of a rigid body with this momentum and spin, at the mean place of contact, m/s. The arm is a mean of arms, weighted
+/// with the normal impulses, so that a body may go a long way while it touches.
+Vec2 ContactRecorder::velocity_at_contact(const Toucher& toucher, const Motion& motion) const {
+  const Vec2 arm = (1 / toucher.pressed) * toucher.arm;
+  return (1 / model_.bodies[toucher.body].mass) * motion.momentum +
+         (motion.spin / inertia_[toucher.body]) * perpendicular(arm);
+}
+
+/// Spins, and the velocity along the boundary where that of two partners exists: of one body against an obstacle or
+/// another body.
+void ContactRecorder::add_rotation(const Partners& partners, const Touch& touch, EpisodeSummary& e) const {
+  for (const Toucher& t : touch.touchers) {
+    e.spin_before[model_.bodies[t.body].name] = t.before.spin;
+    e.spin_after[model_.bodies[t.body].name] = t.after.spin;
+  }
+  const Vec2 push = touch.normal_after - touch.normal_before;
+  const Toucher& first = touch.touchers.front();
+  const Toucher& second = touch.touchers.back();
+  const bool one_body = touch.touchers.size() == 1;
+  if (one_body != (partners.obstacle != nullptr) || !(first.pressed > 0) || !(length(push) > 0)) return;
+  const auto relative = [&](bool after) {
+    const Vec2 velocity = velocity_at_contact(first, after ? first.after : first.before);
+    if (partners.obstacle != nullptr) return velocity - partners.obstacle->velocity;
+    return velocity - velocity_at_contact(second, after ? second.after : second.before);
+  };
+  const Vec2 tangent = (1 / length(push)) * perpendicular(push);
+  const Vec2 before = relative(false);
+  e.slip_before = dot(before, tangent);
+  e.slip_after = dot(relative(true), tangent);
+  // Less than this of the whole is a head-on impact and what rounding and the mesh make of it.
+  constexpr double nothing = 1e-6;
+  if (touch.over && std::fabs(e.slip_before) > nothing * length(before)) {
+    e.tangential_restitution = -e.slip_after / e.slip_before;
+  }
+}
+
 EpisodeSummary ContactRecorder::episode(const Partners& partners, const Touch& touch) const {
   EpisodeSummary e{.first_touch = touch.begin,
                    .separation = touch.over ? touch.end : no_number,
@@ -218,6 +260,7 @@ EpisodeSummary ContactRecorder::episode(const Partners& partners, const Touch& t
   const Vec2 push = touch.normal_after - touch.normal_before;
   const double towards = -dot(e.velocity_before - moving, push);
   if (touch.over && towards > 0) e.restitution = dot(e.velocity_after - moving, push) / towards;
+  add_rotation(partners, touch, e);
   return e;
 }
 

@@ -75,12 +75,15 @@ class ContactRecorder {
   Toucher& toucher(Touch& touch, Index body) const;
   void draw(Curve& curve, const Touch& touch, std::uint64_t step) const;
   static void join(Touch& touch, const Touch& next);
+  [[nodiscard]] Vec2 velocity_at_contact(const Toucher& toucher, const Motion& motion) const;
+  void add_rotation(const Partners& partners, const Touch& touch, EpisodeSummary& e) const;
   [[nodiscard]] EpisodeSummary episode(const Partners& partners, const Touch& touch) const;
   [[nodiscard]] ContactSummary summary_of(const Partners& partners) const;
 
   const Model& model_;
   std::vector<Partners> obstacles_;
   std::vector<Partners> pairs_;  ///< that have met, in the order of State::pairs
+  std::vector<double> inertia_;  ///< kg m2, of each body at rest about its centre of mass
   std::vector<BodyNow> now_;     ///< body by body
   std::vector<BodyNow> last_;    ///< before the step
 };

@@ -40,6 +40,11 @@ void for_each_member(T& s, Visit visit) {
   visit("velocity_before", s.velocity_before);
   visit("velocity_after", s.velocity_after);
   visit("restitution", s.restitution);
+  visit("tangential_restitution", s.tangential_restitution);
+  visit("slip_before", s.slip_before);
+  visit("slip_after", s.slip_after);
+  visit("spin_before", s.spin_before);
+  visit("spin_after", s.spin_after);
 }
 
 template <Is<ContactSummary> T, class Visit>

@@ -26,7 +26,8 @@ struct HistorySummary {
   double time_of_max = no_number;  ///< s
 };
 
-/// One interval with contact force between an obstacle and the bodies.
+/// One interval with contact force between an obstacle and the bodies, or between two bodies. What belongs to the place
+/// of contact is that of rigid bodies with the same momenta, see docs/theory.md.
 struct EpisodeSummary {
   double first_touch = no_number;  ///< s
   double separation = no_number;   ///< s
@@ -36,6 +37,13 @@ struct EpisodeSummary {
   Vec2 velocity_before{};          ///< m/s, of the centre of mass of what touched
   Vec2 velocity_after{};           ///< m/s
   double restitution = no_number;  ///< speed away from the obstacle over speed towards it
+  /// Velocity along the boundary at the place of contact before over the same after, sign turned: -1 without friction,
+  /// 0 where it ends up rolling, 1 where it is thrown back.
+  double tangential_restitution = no_number;
+  double slip_before = no_number;  ///< m/s, that velocity, along the direction of the push turned by +90 degrees
+  double slip_after = no_number;   ///< m/s
+  std::map<std::string, double> spin_before;  ///< kg m2/s, of each body that touched, about its centre of mass
+  std::map<std::string, double> spin_after;
 };
 
 struct ContactSummary {
