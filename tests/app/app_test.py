@@ -275,6 +275,17 @@ class Run(Program):
                      "velocity_after", "restitution"]:
             self.assertIn(name, contact["episodes"][0])
 
+    def test_warns_of_deep_penetration(self):
+        out, _ = self.udar("run", "block.toml", "--set", "obstacles.stop.stiffness=1e8 N/m")
+        summary = self.summary("runs/block")
+        self.assertGreater(summary["penetration_ratio"], 0.05)
+        [warning] = summary["warnings"]
+        self.assertIn("a node of body `block` sank into obstacle `stop` by", warning)
+        self.assertIn("give [obstacles.stop] a larger `stiffness`", warning)
+        self.assertIn(f"verdict: {summary['verdict']} (1 warning) ", out)
+        self.assertIn(f"  warning: {warning}\n", out)
+        self.assertIn(f"  warning: {warning}\n", (self.folder / "runs/block/log.txt").read_text())
+
     def test_never_replaces_unasked(self):
         self.udar("run", "block.toml")
         first = (self.folder / "runs/block/summary.json").read_bytes()

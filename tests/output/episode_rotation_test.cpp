@@ -141,8 +141,8 @@ TEST_CASE("a disc that slides throughout loses slip as a rigid one does") {
     const double rigid = -1 + change * (1 + round);
     const double unlike = p.without_rub / p.impulse.y * (1 + round) + round * (2 * p.flattened / radius) +
                           round * p.aside / p.impulse.y / (friction * radius);
-    MESSAGE("tangential restitution ", e.tangential_restitution, ", of a rigid disc ", rigid, " +- ",
-            1.1 * change * unlike);
+    INFO("tangential restitution ", e.tangential_restitution, ", of a rigid disc ", rigid, " +- ",
+         1.1 * change * unlike);
     CHECK(std::fabs(e.tangential_restitution - rigid) <= 1.1 * change * unlike);
   }
 }

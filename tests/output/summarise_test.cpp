@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "tests/output/watched_run.hpp"
 #include "tests/results/scratch.hpp"
@@ -77,15 +78,126 @@ TEST_CASE("books of momentum and of work and kinetic energy must close to roundi
   CHECK(contains(s.reason(), "kinetic"));
 }
 
-TEST_CASE("nodes that sink in by more than 5 % of an element are told, with a cure, and no more") {
+TEST_CASE("nodes that sink in by more than 5 % of an element are warned of, with who, where, when and the cure") {
   Spoilt s;
   s.summary.penetration_ratio = 0.05;
   CHECK(s.verdict() == "good");
-  CHECK(s.reason().empty());
-  s.summary.penetration_ratio = 0.062;
+  CHECK(s.summary.warnings.empty());
+  s.summary.penetration_ratio = 0.0625;
+  s.summary.deepest_penetration = {
+      .depth = 0.0003, .time = 2e-5, .place = {0.01, -0.0003}, .body = "block", .into = "stop", .stiffness = 2e9};
   CHECK(s.verdict() == "good");
-  CHECK(contains(s.reason(), "6.2 %"));
-  CHECK(contains(s.reason(), "stiffness"));
+  CHECK(s.summary.reasons.empty());
+  REQUIRE(s.summary.warnings.size() == 1);
+  CHECK(
+      s.summary.warnings[0] ==
+      "a node of body `block` sank into obstacle `stop` by 6.25 % of an element (0.0003 m) at (0.01, -0.0003) m, "
+      "t = 2e-05 s: contact springs of 2e+09 N/m soften the impact; give [obstacles.stop] a larger `stiffness`, up to "
+      "3.1e+09 N/m, and a smaller `step_safety` if the energy books then open");
+}
+
+TEST_CASE("a warning of penetration names the other body, or the body itself, and where their stiffness is given") {
+  Spoilt s;
+  s.summary.penetration_ratio = 0.1;
+  s.summary.deepest_penetration = {
+      .depth = 1, .time = 1, .place = {}, .body = "block", .into = "block", .stiffness = 1};
+  s.run.state.deepest.into_body = 1;
+  s.verdict();
+  CHECK(contains(s.summary.warnings.at(0), "sank into that body itself by 10 %"));
+  CHECK(contains(s.summary.warnings.at(0), "give [contact] a larger `stiffness`, up to 4 N/m"));
+  s.run.model.bodies.push_back(s.run.model.bodies[0]);
+  s.run.model.bodies[1].name = "other";
+  s.summary.deepest_penetration.into = "other";
+  s.verdict();
+  REQUIRE(s.summary.warnings.size() == 1);  // judged again, not twice
+  CHECK(contains(s.summary.warnings[0], "sank into body `other` by 10 %"));
+  CHECK(contains(s.summary.warnings[0], "give a [[contact.pairs]] of `block` and `other` a larger `stiffness`"));
+}
+
+namespace {
+
+/// Follows a run and looks through all springs for the deepest touch; compares it with what the summary says.
+Summary compare_deepest(const Case& input) {
+  WatchedRun run(input);
+  PenetrationSummary deepest;
+  double ratio = 0;
+  run.run([&] {
+    const auto look = [&](const SpringState& s, std::size_t point, double stiffness, const std::string& into) {
+      if (!(s.penetration / run.model.contact_node_sizes[point] > ratio)) return;
+      ratio = s.penetration / run.model.contact_node_sizes[point];
+      const Index node = run.model.contact_nodes[point];
+      deepest = {.depth = s.penetration,
+                 .time = run.time(),
+                 .place = place(run.state, node),
+                 .body = run.model.body_of_node(node).name,
+                 .into = into,
+                 .stiffness = stiffness};
+    };
+    const std::size_t points = run.model.contact_nodes.size();
+    for (std::size_t k = 0; k < run.state.contacts.size(); ++k) {
+      const Obstacle& obstacle = run.model.obstacles[k / points];
+      look(run.state.contacts[k], k % points, obstacle.normal_stiffness[k % points], obstacle.name);
+    }
+    for (const BodyTouch& t : run.state.touches) look(t.springs, t.point, t.stiffness, run.model.bodies[t.body].name);
+  });
+  Summary s = summarise(run.model, run.state);
+  CHECK(ratio > 0);
+  CHECK(s.penetration_ratio == ratio);
+  CHECK(s.deepest_penetration.depth == deepest.depth);
+  CHECK(s.deepest_penetration.time == deepest.time);
+  CHECK(s.deepest_penetration.place == deepest.place);
+  CHECK(s.deepest_penetration.body == deepest.body);
+  CHECK(s.deepest_penetration.into == deepest.into);
+  CHECK(s.deepest_penetration.stiffness == deepest.stiffness);
+  return s;
+}
+
+}  // namespace
+
+TEST_CASE("the deepest penetration is the deepest of all touches and steps, with obstacles and with bodies") {
+  Case input = falling_block();
+  CHECK(compare_deepest(input).deepest_penetration.into == "stop");
+  // A second block strikes the first one from above, harder than the stop does.
+  input.bodies.push_back(input.bodies[0]);
+  input.bodies[1].name = "other";
+  input.bodies[1].velocity = {0, -400};
+  std::get<RectangleMesh>(input.bodies[1].mesh) = {.size = {0.03, 0.01}, .at = {-0.013, 0.021}, .element_size = 0.003};
+  input.run.end_time = 20e-6;
+  const Summary two = compare_deepest(input);
+  CHECK((two.deepest_penetration.into == "block" || two.deepest_penetration.into == "other"));
+}
+
+TEST_CASE("the stiffness that a warning names is enough, and smaller elements are no cure") {
+  const auto strike = [](double element_size, std::optional<double> stiffness) {
+    Case input = falling_block(element_size);
+    input.materials[0].law = Elastic{.young_modulus = 196e9, .poisson_ratio = 0.25};
+    input.bodies[0].velocity = {0, -400};
+    input.obstacles[0].friction = 0;
+    input.obstacles[0].stiffness = stiffness;
+    input.run.end_time = 8e-6;
+    input.run.stop_at_energy_error = 1;
+    WatchedRun run(input);
+    run.run([] {});
+    return summarise(run.model, run.state);
+  };
+  const Summary automatic = strike(0.0025, {});
+  const double excess = automatic.penetration_ratio / 0.05;
+  REQUIRE(excess > 1.2);
+  CHECK(strike(0.0025, automatic.deepest_penetration.stiffness * excess * excess).penetration_ratio <= 0.05);
+  // The same shock on another mesh: times scale with the elements, until waves come back.
+  CHECK(strike(0.00125, {}).penetration_ratio == doctest::Approx(automatic.penetration_ratio).epsilon(0.05));
+}
+
+TEST_CASE("a run in which nothing touched has no deepest penetration") {
+  Case input = falling_block();
+  input.obstacles[0].shape = HalfPlane{.point = {0, -1}};
+  WatchedRun run(input);
+  run.run([] {});
+  const PenetrationSummary none = summarise(run.model, run.state).deepest_penetration;
+  CHECK(std::isnan(none.depth));
+  CHECK(std::isnan(none.time));
+  CHECK(std::isnan(none.place.x));
+  CHECK(none.body.empty());
 }
 
 TEST_CASE("shortened steps are told, and no more") {

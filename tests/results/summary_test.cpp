@@ -21,6 +21,9 @@ Summary example() {
   s.energy_error = 4e-5 / 3;
   s.verdict = "good";
   s.reasons = {"one", "two"};
+  s.warnings = {"deep"};
+  s.deepest_penetration = {
+      .depth = 1e-4, .time = 2e-5, .place = {0.1, 0.2}, .body = "beam", .into = "stop", .stiffness = 1e9};
   s.stop_reason = "end_time";
   s.masses["beam"] = 3.14;
   s.ledger.kinetic = 1.0 / 3;
@@ -60,6 +63,9 @@ TEST_CASE("a summary reads back equal") {
   CHECK(std::isnan(read.contacts.at("stop").episodes.at(1).tangential_restitution));
   CHECK(read.contacts.at("stop").episodes.at(1).spin_after.empty());
   CHECK(read.reasons.size() == 2);
+  CHECK(read.warnings == std::vector<std::string>{"deep"});
+  CHECK(read.deepest_penetration.place == Vec2{0.1, 0.2});
+  CHECK(read.deepest_penetration.into == "stop");
 }
 
 TEST_CASE("the names that scripts rely on") {
@@ -67,7 +73,8 @@ TEST_CASE("the names that scripts rely on") {
   CHECK(json.at("schema") == 1);
   for (const char* name :
        {"elements", "nodes", "steps", "threads", "wall_seconds", "stepping_seconds", "element_steps_per_second",
-        "end_time", "energy_error", "momentum_error", "verdict", "reasons", "stop_reason"}) {
+        "end_time", "energy_error", "momentum_error", "penetration_ratio", "deepest_penetration", "verdict", "reasons",
+        "warnings", "stop_reason"}) {
     CHECK(json.contains(name));
   }
   for (const char* name : {"min", "max", "max_abs", "last"}) {

@@ -71,10 +71,13 @@ void print_result(const Summary& s, const fs::path& folder) {
   print_contacts(s);
   say("\n{} elements x {} in {}: {} element-steps/s, {}\n", s.elements, counted(s.steps, "step"),
       in_units(s.stepping_seconds, "s"), in_units(s.element_steps_per_second, ""), counted(s.threads, "thread"));
-  say("verdict: {}   energy {:.2g} %   momentum {:.1g}   penetration {:.2g} % of element   -> {}\n", s.verdict,
-      100 * s.energy_error, s.momentum_error, 100 * s.penetration_ratio, folder.string());
+  const std::string warnings =
+      s.warnings.empty() ? "" : fmt::format(" ({})", counted(static_cast<long long>(s.warnings.size()), "warning"));
+  say("verdict: {}{}   energy {:.2g} %   momentum {:.1g}   penetration {:.2g} % of element   -> {}\n", s.verdict,
+      warnings, 100 * s.energy_error, s.momentum_error, 100 * s.penetration_ratio, folder.string());
   const bool told_as_error = s.stop_reason == "numerical" || s.stop_reason == "disk";
   for (std::size_t k = told_as_error ? 1 : 0; k < s.reasons.size(); ++k) say("  {}\n", s.reasons[k]);
+  for (const std::string& warning : s.warnings) say("  warning: {}\n", warning);
   std::error_code error;
   if (fs::exists(folder / RunFolder::final_picture, error)) say("  look at final.svg in a browser");
   if (fs::exists(folder / RunFolder::fields_index, error)) say(", at fields.pvd in ParaView (Apply, then play)");

@@ -53,7 +53,18 @@ struct RigidMotion {
   double angle = 0;                          ///< rad, since t = 0
   RigidRate velocity;                        ///< mean over the coming step
   RigidRate now;                             ///< v_n; Adams integrators only
-  std::array<RigidRate, 3> accelerations{};  ///< accelerations at t_n, t_{n-1}, t_{n-2}
+  std::array<RigidRate, 3> accelerations{};  ///< at t_n, t_{n-1}, t_{n-2}
+};
+
+/// Where a node sank deepest into what it touched, compared with the boundary edges at it.
+struct DeepestTouch {
+  double depth = 0;             ///< m
+  double time = 0;              ///< s
+  Vec2 place{};                 ///< m, of the node
+  double stiffness = 0;         ///< N/m, of its normal spring
+  Index node = 0;               ///< that sank in
+  std::uint32_t into_body = 0;  ///< 1: into a body, 0: into an obstacle
+  std::uint64_t partner = 0;    ///< number of that body or obstacle
 };
 
 /// What limits the step.
@@ -141,6 +152,7 @@ struct State {
   std::vector<double> body_spin;     ///< kg m2/s, the same of m x cross that velocity
   std::vector<BodySums> body_sums;   ///< one for each body
   double largest_penetration = 0;    ///< over the mean length of the boundary edges at the node
+  DeepestTouch deepest;              ///< that touch
   Ledger ledger;
 };
 
@@ -193,6 +205,7 @@ void for_each_field(S& state, Visitor&& visit) {
   visit("body_spin", state.body_spin);
   visit("body_sums", state.body_sums);
   visit("largest_penetration", state.largest_penetration);
+  visit("deepest", state.deepest);
   visit("ledger", state.ledger);
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "udar/output/observer.hpp"
 
@@ -43,6 +42,17 @@ MomentumSummary momentum_of(const State& state) {
   for (const ContactBook& obstacle : state.obstacles) s.obstacles += obstacle.total.impulse();
   s.error = s.end - s.start - s.obstacles - s.gravity - s.loads - s.supports - s.damping;
   return s;
+}
+
+PenetrationSummary deepest_of(const Model& model, const State& state) {
+  if (state.largest_penetration == 0) return {};
+  const DeepestTouch& d = state.deepest;
+  return {.depth = d.depth,
+          .time = d.time,
+          .place = d.place,
+          .body = model.body_of_node(d.node).name,
+          .into = d.into_body != 0 ? model.bodies[d.partner].name : model.obstacles[d.partner].name,
+          .stiffness = d.stiffness};
 }
 
 /// What a gap in the momentum books is compared with where the momentum of the start says nothing, kg m/s: the largest
@@ -97,18 +107,38 @@ void judge_books(const Model& model, const State& state, const Summary& s, Judge
   }
 }
 
-/// Deep penetration does not open the books, so it is told but leaves the verdict as it is.
-void judge_contact(const Model& model, const Summary& s, Judgement& judgement) {
-  if (s.penetration_ratio <= 0.05) return;
-  double softest = std::numeric_limits<double>::infinity();
-  for (const Obstacle& obstacle : model.obstacles) {
-    for (const double k : obstacle.normal_stiffness) softest = std::min(softest, k);
-  }
-  judgement.because(
-      Judgement::good,
-      "nodes sank into an obstacle by up to {:.3g} % of an element (springs from {:.3g} N/m on); where that "
-      "matters, give it a larger `stiffness`, with a smaller `step_safety`",
-      100 * s.penetration_ratio, softest);
+/// What a node sank into, in words, and the table of the case file with the stiffness of the springs between them.
+struct Partner {
+  std::string name;
+  std::string key;
+};
+
+Partner partner_of(const Model& model, const State& state, const PenetrationSummary& deepest) {
+  const std::string& body = deepest.body;
+  const std::string& into = deepest.into;
+  if (state.deepest.into_body == 0) return {fmt::format("obstacle `{}`", into), fmt::format("[obstacles.{}]", into)};
+  std::string key = "[contact]";
+  if (model.bodies.size() > 1) key = fmt::format("a [[contact.pairs]] of `{}` and `{}`", body, into);
+  return {into == body ? "that body itself" : fmt::format("body `{}`", into), key};
+}
+
+/// Deep penetration does not open the books, so it is warned of but leaves the verdict as it is. A node that its own
+/// mass carries into a spring k sinks by v sqrt(m / k), one that is pressed by what is behind it by f / k: the square
+/// of what is wanted less is stiff enough for both. The size of elements hardly matters: f is a pressure times an edge,
+/// and with automatic springs k = wave modulus x thickness.
+void warn_of_penetration(const Model& model, const State& state, Summary& s) {
+  s.warnings.clear();
+  constexpr double too_deep = 0.05;
+  if (s.penetration_ratio <= too_deep) return;
+  const double excess = s.penetration_ratio / too_deep;
+  const PenetrationSummary& deepest = s.deepest_penetration;
+  const Partner partner = partner_of(model, state, deepest);
+  s.warnings.push_back(fmt::format(
+      "a node of body `{}` sank into {} by {:.3g} % of an element ({:.3g} m) at ({:.4g}, {:.4g}) m, t = {:.4g} s: "
+      "contact springs of {:.3g} N/m soften the impact; give {} a larger `stiffness`, up to {:.2g} N/m, and a smaller "
+      "`step_safety` if the energy books then open",
+      deepest.body, partner.name, 100 * s.penetration_ratio, deepest.depth, deepest.place.x, deepest.place.y,
+      deepest.time, deepest.stiffness, partner.key, deepest.stiffness * excess * excess));
 }
 
 bool has_corners(const Model& model) {
@@ -162,6 +192,7 @@ Summary summarise(const Model& model, const State& state) {
   const double scale = state.ledger.momentum_scale > 0 ? state.ledger.momentum_scale : momentum_at_stake(model, state);
   s.momentum_error = scale > 0 ? state.ledger.momentum_gap / scale : 0;
   s.penetration_ratio = state.largest_penetration;
+  s.deepest_penetration = deepest_of(model, state);
   for (const Body& body : model.bodies) s.masses[body.name] = body.mass;
   s.time_step = {.min = clock.smallest_step,
                  .max = clock.largest_step,
@@ -181,7 +212,7 @@ void judge(const Model& model, const State& state, Summary& s) {
   Judgement judgement{.reasons = std::move(s.reasons)};
   judge_stop(s, judgement);
   judge_books(model, state, s, judgement);
-  judge_contact(model, s, judgement);
+  warn_of_penetration(model, state, s);
   judge_steps(model, state, s, judgement);
   s.verdict = judgement.word();
   s.reasons = std::move(judgement.reasons);

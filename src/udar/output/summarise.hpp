@@ -10,7 +10,7 @@ namespace udar {
 /// reason of the stop are added by the run.
 Summary summarise(const Model& model, const State& state);
 
-/// Judges a run from its numbers and from what stopped it: verdict and reasons. Reasons already there stay.
+/// Judges a run from its numbers and from what stopped it: verdict, reasons and warnings. Reasons already there stay.
 void judge(const Model& model, const State& state, Summary& summary);
 
 /// "beam element 1873", with the number the user's mesh gave it.

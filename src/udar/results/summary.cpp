@@ -91,6 +91,16 @@ void for_each_member(T& s, Visit visit) {
   visit("error", s.error);
 }
 
+template <Is<PenetrationSummary> T, class Visit>
+void for_each_member(T& s, Visit visit) {
+  visit("depth", s.depth);
+  visit("time", s.time);
+  visit("place", s.place);
+  visit("body", s.body);
+  visit("into", s.into);
+  visit("stiffness", s.stiffness);
+}
+
 template <Is<TimeStepSummary> T, class Visit>
 void for_each_member(T& s, Visit visit) {
   visit("min", s.min);
@@ -118,8 +128,10 @@ void for_each_member(T& s, Visit visit) {
   visit("identity_error", s.identity_error);
   visit("momentum_error", s.momentum_error);
   visit("penetration_ratio", s.penetration_ratio);
+  visit("deepest_penetration", s.deepest_penetration);
   visit("verdict", s.verdict);
   visit("reasons", s.reasons);
+  visit("warnings", s.warnings);
   visit("stop_reason", s.stop_reason);
   visit("masses", s.masses);
   visit("time_step", s.time_step);

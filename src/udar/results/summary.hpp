@@ -89,6 +89,16 @@ struct MomentumSummary {
   Vec2 error{};
 };
 
+/// The touch in which a node sank deepest, compared with the boundary at it: Summary::penetration_ratio.
+struct PenetrationSummary {
+  double depth = no_number;          ///< m
+  double time = no_number;           ///< s
+  Vec2 place{no_number, no_number};  ///< m
+  std::string body;                  ///< whose node it is
+  std::string into;                  ///< obstacle or body; the same body where it touched itself
+  double stiffness = no_number;      ///< N/m, of the spring there
+};
+
 struct TimeStepSummary {
   double min = no_number;              ///< s
   double max = no_number;              ///< s
@@ -114,8 +124,10 @@ struct Summary {
   double identity_error = no_number;     ///< the same of the nodes' work and kinetic energy: rounding only
   double momentum_error = no_number;     ///< part of the momentum, largest over time
   double penetration_ratio = no_number;  ///< deepest penetration over element size
+  PenetrationSummary deepest_penetration;
   std::string verdict;                   ///< good, doubtful or bad
   std::vector<std::string> reasons;      ///< why not good
+  std::vector<std::string> warnings;     ///< what may spoil the result though the books close, with its cure
   std::string stop_reason;               ///< end_time, interrupted, numerical or disk
   std::map<std::string, double> masses;  ///< kg, by body
   TimeStepSummary time_step;

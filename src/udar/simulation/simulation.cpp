@@ -88,6 +88,7 @@ std::string log_end(const Summary& s) {
                       s.time_step.limited_by, s.time_step.time_of_min);
   text += fmt::format("stopped by: {}\nverdict: {}\n", s.stop_reason, s.verdict);
   for (const std::string& reason : s.reasons) text += "  " + reason + "\n";
+  for (const std::string& warning : s.warnings) text += "  warning: " + warning + "\n";
   return text;
 }
 

@@ -59,6 +59,54 @@ void add_contact_force(const Model& model, State& state, Workspace& work, std::s
   }
 }
 
+namespace {
+
+/// Notes the touch that goes with a new largest penetration, which is one of these. Most steps have none, and a look at
+/// all springs of a block is then saved.
+void note_deepest(const Model& model, State& state, std::size_t obstacle, const OuterNodes& nodes) {
+  const SpringState* const springs = state.contacts.data() + obstacle * model.contact_nodes.size();
+  for (std::size_t c = nodes.contact_begin; c < nodes.contact_end; ++c) {
+    if (springs[c].penetration / model.contact_node_sizes[c] < state.largest_penetration) continue;
+    const Index node = model.contact_nodes[c];
+    state.deepest = {.depth = springs[c].penetration,
+                     .time = state.clock.time.value(),
+                     .place = place(state, node),
+                     .stiffness = model.obstacles[obstacle].normal_stiffness[c],
+                     .node = node,
+                     .partner = obstacle};
+    return;
+  }
+}
+
+void note_deepest(const Model& model, State& state) {
+  for (const BodyTouch& touch : state.touches) {
+    if (touch.springs.penetration / model.contact_node_sizes[touch.point] < state.largest_penetration) continue;
+    const Index node = model.contact_nodes[touch.point];
+    state.deepest = {.depth = touch.springs.penetration,
+                     .time = state.clock.time.value(),
+                     .place = place(state, node),
+                     .stiffness = touch.stiffness,
+                     .node = node,
+                     .into_body = 1,
+                     .partner = touch.body};
+    return;
+  }
+  for (const CornerTouch& touch : state.corner_touches) {
+    const Segment& s = model.segments[touch.segment];
+    if (touch.springs.penetration / model.contact_node_sizes[s.a] < state.largest_penetration) continue;
+    const Index node = model.contact_nodes[touch.along < 0.5 ? s.a : s.b];
+    state.deepest = {.depth = touch.springs.penetration,
+                     .time = state.clock.time.value(),
+                     .place = place(state, node),
+                     .stiffness = touch.stiffness,
+                     .node = node,
+                     .partner = model.corner_of(touch.point).obstacle};
+    return;
+  }
+}
+
+}  // namespace
+
 void enter_springs(const Model& model, State& state, const Workspace& work) {
   Ledger& ledger = state.ledger;
   ledger.contact_energy = 0;
@@ -69,19 +117,21 @@ void enter_springs(const Model& model, State& state, const Workspace& work) {
     ledger.tangential_energy += sums.tangential_energy;
     losses.friction += sums.losses.friction;
     losses.dropped += sums.losses.dropped;
-    state.largest_penetration = std::max(state.largest_penetration, sums.largest_penetration);
+    const bool deepest = sums.largest_penetration > state.largest_penetration;
+    if (deepest) state.largest_penetration = sums.largest_penetration;
+    return deepest;
   };
   const ContactSums* sums = work.contact_sums.data();
   for (std::size_t o = 0; o < model.obstacles.size(); ++o) {
     state.obstacles[o].touching = 0;
     for (std::size_t b = 0; b < model.node_blocks.size(); ++b, ++sums) {
       state.obstacles[o].touching += sums->touching;
-      enter(*sums);
+      if (enter(*sums)) note_deepest(model, state, o, work.outer_nodes[b]);
     }
   }
   for (const CornerTouch& touch : state.corner_touches)
     ++state.obstacles[model.corner_of(touch.point).obstacle].touching;
-  enter(work.bodies.sums);
+  if (enter(work.bodies.sums)) note_deepest(model, state);
   ledger.tie_energy = 0;
   for (std::size_t k = 0; k < work.bodies.tie_pulls.size(); ++k) {
     const Vec2 stretch = work.bodies.tie_pulls[k].stretch;
