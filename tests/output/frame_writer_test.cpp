@@ -176,6 +176,98 @@ TEST_CASE("a frame reads back as the state, within a float") {
   CHECK(one_flows);
 }
 
+TEST_CASE("a frame shows what each node touches: how deep, which way, whether it slides, and what") {
+  const Scratch folder;
+  // A block slides on a rough floor, another one on top of it comes along; a third one strikes a smooth wall.
+  Case input = falling_block();
+  input.run.end_time = 4e-6;
+  input.contact.friction = 10;
+  input.bodies.push_back(input.bodies[0]);
+  input.bodies[1].name = "top";
+  std::get<RectangleMesh>(input.bodies[1].mesh) = {.size = {0.03, 0.02}, .at = {-0.013, 0.02}, .element_size = 0.006};
+  input.bodies[1].velocity = {5, -90};
+  input.bodies.push_back(input.bodies[0]);
+  input.bodies[2].name = "third";
+  input.bodies[2].velocity = {80, 0};
+  std::get<RectangleMesh>(input.bodies[2].mesh).at = {0.06, 0.1};
+  input.obstacles.push_back({.name = "wall", .shape = HalfPlane{.point = {0.1, 0}, .normal = {-1, 0}}});
+  WatchedRun run(input);
+  run.run([] {});
+  const Model& model = run.model;
+  write_vtu(folder / "a.vtu", body_frame(model, run.state));
+  const VtuGrid grid = read_vtu(folder / "a.vtu");
+  const auto& depth = values_of<float>(grid.point_fields, "contact_penetration_m");
+  const auto& normal = values_of<float>(grid.point_fields, "contact_normal");
+  const auto& how = values_of<std::uint8_t>(grid.point_fields, "contact_state");
+  const auto& partner = values_of<std::int32_t>(grid.point_fields, "contact_partner");
+  REQUIRE(depth.size() == model.node_count);
+  REQUIRE(normal.size() == 3 * model.node_count);
+
+  // By hand: of each node the deepest of all its touches.
+  std::vector<double> deepest(model.node_count);
+  std::vector<int> seen(5);  // nodes that touch body 0, 1, 2, the floor, the wall
+  std::vector<int> states(3);
+  const std::size_t points = model.contact_nodes.size();
+  const auto check = [&](std::size_t point, const SpringState& s, std::int32_t with) {
+    const Index node = model.contact_nodes[point];
+    deepest[node] = std::max(deepest[node], s.penetration);
+    if (s.touches == 0 || depth[node] != static_cast<float>(s.penetration)) return;
+    CHECK(partner[node] == with);
+    CHECK(normal[3 * node] == static_cast<float>(s.normal.x));
+    CHECK(normal[3 * node + 1] == static_cast<float>(s.normal.y));
+    CHECK(normal[3 * node + 2] == 0);
+    const bool smooth = with == 4;
+    CHECK(how[node] == (smooth || s.slides != 0 ? 2 : 1));
+    ++seen[static_cast<std::size_t>(with)];
+    ++states[how[node]];
+  };
+  for (std::size_t k = 0; k < run.state.contacts.size(); ++k) {
+    check(k % points, run.state.contacts[k], static_cast<std::int32_t>(3 + k / points));
+  }
+  for (const BodyTouch& t : run.state.touches) check(t.point, t.springs, static_cast<std::int32_t>(t.body));
+  int none = 0;
+  for (Index i = 0; i < model.node_count; ++i) {
+    CHECK(depth[i] == static_cast<float>(deepest[i]));
+    if (deepest[i] > 0) continue;
+    ++none;
+    CHECK(how[i] == 0);
+    CHECK(partner[i] == -1);
+    CHECK(normal[3 * i] == 0);
+    CHECK(normal[3 * i + 1] == 0);
+  }
+  CHECK(none > 0);
+  for (const int with : {0, 1, 3, 4}) {
+    CAPTURE(with);
+    CHECK(seen[static_cast<std::size_t>(with)] > 0);
+  }
+  CHECK(seen[2] == 0);
+  CHECK(states[1] > 0);
+  CHECK(states[2] > 0);
+}
+
+TEST_CASE("of a node between two obstacles the deeper touch is shown, of both the force") {
+  Case input = falling_block();
+  input.run.end_time = 4e-6;
+  input.bodies[0].velocity = {-20, -80};
+  input.obstacles.push_back({.name = "wall", .shape = HalfPlane{.point = {-0.02, 0}, .normal = {1, 0}}});
+  WatchedRun run(input);
+  run.run([] {});
+  const Scratch folder;
+  write_vtu(folder / "a.vtu", body_frame(run.model, run.state));
+  const VtuGrid grid = read_vtu(folder / "a.vtu");
+  const Index corner = run.model.contact_nodes[0];
+  REQUIRE(run.model.rest[corner] == Vec2{-0.02, 0});
+  const SpringState& floor = run.state.contacts[0];
+  const SpringState& wall = run.state.contacts[run.model.contact_nodes.size()];
+  REQUIRE(floor.penetration > wall.penetration);
+  REQUIRE(wall.penetration > 0);
+  CHECK(values_of<std::int32_t>(grid.point_fields, "contact_partner")[corner] == 1);
+  CHECK(values_of<float>(grid.point_fields, "contact_penetration_m")[corner] == static_cast<float>(floor.penetration));
+  const Vec2 force = floor.normal_force + floor.friction_force + wall.normal_force + wall.friction_force;
+  CHECK(values_of<float>(grid.point_fields, "contact_force_N")[3 * corner] == doctest::Approx(force.x));
+  CHECK(values_of<float>(grid.point_fields, "contact_force_N")[3 * corner + 1] == doctest::Approx(force.y));
+}
+
 TEST_CASE("each of several bodies has its number, and elements come without padding") {
   const Scratch folder;
   Case input = falling_block();

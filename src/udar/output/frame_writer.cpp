@@ -1,6 +1,7 @@
 #include "udar/output/frame_writer.hpp"
 
 #include <algorithm>
+#include <memory>
 
 #include "udar/output/observer.hpp"
 
@@ -37,12 +38,17 @@ VtuField element_field(const Model& model, std::string name, Value value) {
           })};
 }
 
-VtuField node_numbers(const Model& model) {
-  return {"node_number", 1, model.node_count,
-          VtuSource<std::int32_t>([&model](std::size_t first, std::span<std::int32_t> out) {
-            for (std::size_t k = 0; k < out.size(); ++k)
-              out[k] = static_cast<std::int32_t>(model.node_numbers[first + k]);
+/// A field with value(i) for each node.
+template <class Number, class Value>
+VtuField node_field(const Model& model, std::string name, Value value) {
+  return {std::move(name), 1, model.node_count, VtuSource<Number>([value](std::size_t first, std::span<Number> out) {
+            for (std::size_t k = 0; k < out.size(); ++k) out[k] = value(static_cast<Index>(first + k));
           })};
+}
+
+VtuField node_numbers(const Model& model) {
+  return node_field<std::int32_t>(model, "node_number",
+                                  [&model](Index i) { return static_cast<std::int32_t>(model.node_numbers[i]); });
 }
 
 VtuField bodies_of_nodes(const Model& model) {
@@ -62,34 +68,63 @@ VtuField node_vectors(const Model& model, const char* quantity, const char* unit
                         [value](std::size_t i) { return value(static_cast<Index>(i)); });
 }
 
-/// Contact forces at the contact nodes, of all obstacles and bodies together, N. They stand in the order of the nodes.
-std::vector<Vec2> contact_forces(const Model& model, const State& state) {
-  std::vector<Vec2> force(model.contact_nodes.size());
+/// What happens to a contact node.
+struct NodeTouch {
+  Vec2 force{};  ///< N, of all that touch it
+  // Of what it has sunk into, the deepest where there are several.
+  double depth = 0;  ///< m
+  Vec2 normal{};
+  std::uint8_t state = 0;     ///< 0 none, 1 sticks, 2 slides
+  std::int32_t partner = -1;  ///< body, or number of bodies + obstacle
+};
+
+/// Touches of the contact nodes, with all obstacles and bodies.
+std::vector<NodeTouch> node_touches(const Model& model, const State& state) {
+  std::vector<NodeTouch> touches(model.contact_nodes.size());
+  const auto enter = [&](std::size_t point, const SpringState& springs, bool rubs, std::size_t partner) {
+    NodeTouch& touch = touches[point];
+    if (springs.penetration <= touch.depth) return;
+    touch.depth = springs.penetration;
+    touch.normal = springs.normal;
+    touch.state = rubs && springs.slides == 0 ? 1 : 2;
+    touch.partner = static_cast<std::int32_t>(partner);
+  };
   for (std::size_t k = 0; k < state.contacts.size(); ++k) {
     const SpringState& s = state.contacts[k];
-    force[k % force.size()] += s.normal_force + s.friction_force + s.damping_force;
+    const std::size_t point = k % touches.size();
+    const std::size_t obstacle = k / touches.size();
+    touches[point].force += s.normal_force + s.friction_force + s.damping_force;
+    enter(point, s, model.obstacles[obstacle].friction > 0, model.bodies.size() + obstacle);
   }
-  for (const BodyTouch& touch : state.touches) {
-    for_each_force(model.segments, touch,
-                   [&](std::uint32_t point, const TouchForces& f) { force[point] += f.total(); });
+  for (const BodyTouch& t : state.touches) {
+    for_each_force(model.segments, t,
+                   [&](std::uint32_t point, const TouchForces& f) { touches[point].force += f.total(); });
+    enter(t.point, t.springs, t.lever > 0 && model.body_pair(t.point, t.body).friction > 0, t.body);
   }
-  return force;
+  return touches;
 }
 
-VtuField contact_force_field(const Model& model, const State& state) {
-  return node_vectors(model, "contact_force", "N", [&model, force = contact_forces(model, state)](Index i) {
-    const auto at = std::lower_bound(model.contact_nodes.begin(), model.contact_nodes.end(), i);
-    return at != model.contact_nodes.end() && *at == i
-               ? force[static_cast<std::size_t>(at - model.contact_nodes.begin())]
-               : Vec2{};
-  });
+/// Fields of the contact nodes; other nodes have what a node has that nothing touches.
+void add_contact_fields(const Model& model, const State& state, std::vector<VtuField>& out) {
+  const auto touches = std::make_shared<const std::vector<NodeTouch>>(node_touches(model, state));
+  const auto touch = [&model, touches](std::size_t node) {
+    const auto at = std::lower_bound(model.contact_nodes.begin(), model.contact_nodes.end(), node);
+    if (at == model.contact_nodes.end() || *at != node) return NodeTouch{};
+    return (*touches)[static_cast<std::size_t>(at - model.contact_nodes.begin())];
+  };
+  out.push_back(node_vectors(model, "contact_force", "N", [touch](Index i) { return touch(i).force; }));
+  out.push_back(node_vectors(model, "contact_normal", "", [touch](Index i) { return touch(i).normal; }));
+  out.push_back(node_field<float>(model, field_name("contact_penetration", "m"),
+                                  [touch](Index i) { return as_float(touch(i).depth); }));
+  out.push_back(node_field<std::uint8_t>(model, "contact_state", [touch](Index i) { return touch(i).state; }));
+  out.push_back(node_field<std::int32_t>(model, "contact_partner", [touch](Index i) { return touch(i).partner; }));
 }
 
 void add_point_fields(const Model& model, const State& state, std::vector<VtuField>& out) {
   out.push_back(node_vectors(model, "displacement", "m", [&](Index i) { return place(state, i) - model.rest[i]; }));
   out.push_back(node_vectors(model, "velocity", "m/s", [&](Index i) { return velocity(state, i); }));
   out.push_back(node_vectors(model, "acceleration", "m/s^2", [&](Index i) { return state.acceleration[i]; }));
-  out.push_back(contact_force_field(model, state));
+  add_contact_fields(model, state, out);
   out.push_back(node_numbers(model));
   out.push_back(bodies_of_nodes(model));
 }
