@@ -137,11 +137,30 @@ TEST_CASE("gaps below 2 % of the whole are merged and counted, others part episo
   CHECK(s.episodes[0].separation == 81);
   CHECK(s.episodes[0].impulse == Vec2{0, 118});
   CHECK(s.episodes[0].peak_force == 2);
+  CHECK(s.episodes[0].velocity_before.y == doctest::Approx(-80));
   CHECK(s.episodes[1].first_touch == 84);
   CHECK(s.episodes[1].impulse == Vec2{0, 60});
   CHECK(s.episodes[1].velocity_before == s.episodes[0].velocity_after);
   CHECK(s.peak_force == 3);
   CHECK(s.impulse == Vec2{0, 178});
+}
+
+TEST_CASE("a gap that is short against the contact so far is closed at once, and counted all the same") {
+  Script script;
+  script.steps(100, 1);  // 1 ... 100 s
+  script.step(0);        // left at 101 s, touched again at 102 s: 1 s of 101 s so far
+  script.steps(5, 3);
+  script.step(0);  // 107 s
+  const ContactSummary s = script.summary();
+  CHECK(s.merged_gaps == 1);
+  REQUIRE(s.episodes.size() == 1);
+  const EpisodeSummary& e = s.episodes[0];
+  CHECK(e.first_touch == 1);
+  CHECK(e.separation == 107);
+  CHECK(e.impulse == Vec2{0, 115});
+  CHECK(e.peak_force == 3);
+  CHECK(e.velocity_before.y == doctest::Approx(-80));
+  CHECK(e.velocity_after.y == doctest::Approx(-80 + 115 / script.mass()));
 }
 
 TEST_CASE("a contact that still lasts at the end has no separation and no restitution") {
