@@ -275,6 +275,23 @@ class Run(Program):
                      "velocity_after", "restitution"]:
             self.assertIn(name, contact["episodes"][0])
 
+    def test_of_many_contacts_shows_the_hardest(self):
+        row = "".join(f"""
+[bodies.b{k:02}]
+material = "steel"
+velocity = ["{-k} m/s", "0 m/s"]
+mesh = {{ shape = "rectangle", size = ["1 cm", "1 cm"], at = ["{k * 1.0001} cm", "0 cm"], element_size = "5 mm" }}
+""" for k in range(24))
+        case = CASE[:CASE.index("[bodies.block]")] + row
+        self.write("row.toml", case.replace("60 us", "20 us"))
+        out, _ = self.udar("run", "row.toml")
+        contacts = self.summary("runs/row")["contacts"]
+        self.assertEqual(len(contacts), 23)
+        hardest = sorted(contacts, key=lambda name: -contacts[name]["peak_force"])
+        rows = [line.split()[0] for line in out.splitlines() if line.startswith("b") and "/" in line.split()[0]]
+        self.assertEqual(rows, sorted(hardest[:20]))
+        self.assertIn("and 3 with less force, all in summary.json\n", out)
+
     def test_warns_of_deep_penetration(self):
         out, _ = self.udar("run", "block.toml", "--set", "obstacles.stop.stiffness=1e8 N/m")
         summary = self.summary("runs/block")

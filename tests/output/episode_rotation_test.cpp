@@ -90,9 +90,9 @@ TEST_CASE("the spin of a body changes by the moment of the forces on it, to roun
     // The velocity along the floor is that of a rigid disc: pushes turned by +90 degrees point to -x.
     const double height = p.height / p.impulse.y;
     const double slip = -(e.velocity_after.x - height * e.spin_after.at("disc") / inertia);
-    CHECK(e.slip_after == doctest::Approx(slip).epsilon(1e-9));
-    CHECK(e.slip_before == doctest::Approx(-(20 - height * 300)).epsilon(1e-9));
-    CHECK(e.tangential_restitution == doctest::Approx(-e.slip_after / e.slip_before).epsilon(1e-12));
+    CHECK(e.slip_velocity_after == doctest::Approx(slip).epsilon(1e-9));
+    CHECK(e.slip_velocity_before == doctest::Approx(-(20 - height * 300)).epsilon(1e-9));
+    CHECK(e.tangential_restitution == doctest::Approx(-e.slip_velocity_after / e.slip_velocity_before).epsilon(1e-12));
   }
 }
 
@@ -152,7 +152,7 @@ TEST_CASE("a disc that strikes head-on has no tangential restitution") {
   ContactRecorder recorder(run.model);
   watch(run, recorder);
   CHECK(std::isnan(recorder.summary().at("floor").episodes.at(0).tangential_restitution));
-  CHECK(recorder.summary().at("floor").episodes.at(0).slip_before == doctest::Approx(0).epsilon(1e-9));
+  CHECK(recorder.summary().at("floor").episodes.at(0).slip_velocity_before == doctest::Approx(0).epsilon(1e-9));
 }
 
 TEST_CASE("of two bodies that rub and spin each has its spin; what slips is the first against the second") {
@@ -211,9 +211,9 @@ TEST_CASE("of two bodies that rub and spin each has its spin; what slips is the 
   CHECK(spin == doctest::Approx(run.state.ledger.spin).epsilon(1e-9));
   const Vec2 push = book_of_pair(run.state, 0, 1)->normal.impulse();
   const Vec2 tangent = (1 / length(push)) * perpendicular(push);
-  CHECK(e.slip_before == doctest::Approx(dot(before, tangent)).epsilon(1e-9));
-  CHECK(e.slip_after == doctest::Approx(dot(after, tangent)).epsilon(1e-9));
-  CHECK(e.tangential_restitution == doctest::Approx(-e.slip_after / e.slip_before).epsilon(1e-12));
+  CHECK(e.slip_velocity_before == doctest::Approx(dot(before, tangent)).epsilon(1e-9));
+  CHECK(e.slip_velocity_after == doctest::Approx(dot(after, tangent)).epsilon(1e-9));
+  CHECK(e.tangential_restitution == doctest::Approx(-e.slip_velocity_after / e.slip_velocity_before).epsilon(1e-12));
 }
 
 TEST_CASE("what does not exist is no number: several bodies on an obstacle, a body on itself, a contact that lasts") {
@@ -227,8 +227,8 @@ TEST_CASE("what does not exist is no number: several bodies on an obstacle, a bo
   run.run([&] { recorder.record(run.state); });
   const EpisodeSummary both = recorder.summary().at("floor").episodes.at(0);
   CHECK(std::isnan(both.tangential_restitution));
-  CHECK(std::isnan(both.slip_before));
-  CHECK(std::isnan(both.slip_after));
+  CHECK(std::isnan(both.slip_velocity_before));
+  CHECK(std::isnan(both.slip_velocity_after));
   REQUIRE(both.spin_after.size() == 2);
   CHECK(both.spin_after.at("disc") == doctest::Approx(both.spin_after.at("other")).epsilon(1e-6));
 
@@ -239,7 +239,7 @@ TEST_CASE("what does not exist is no number: several bodies on an obstacle, a bo
   short_run.run([&] { short_recorder.record(short_run.state); });
   const EpisodeSummary lasts = short_recorder.summary().at("floor").episodes.at(0);
   CHECK(std::isnan(lasts.tangential_restitution));
-  CHECK(std::isfinite(lasts.slip_after));
+  CHECK(std::isfinite(lasts.slip_velocity_after));
   CHECK(lasts.spin_before.at("disc") == doctest::Approx(0));
 }
 

@@ -36,8 +36,8 @@ Summary example() {
   stop.episodes = {{.first_touch = 0,
                     .velocity_before = {0, -80},
                     .tangential_restitution = -0.25,
-                    .slip_before = -8,
-                    .slip_after = -2,
+                    .slip_velocity_before = -8,
+                    .slip_velocity_after = -2,
                     .spin_before = {{"beam", 0}},
                     .spin_after = {{"beam", 1.0 / 3}}},
                    {.first_touch = 1e-3, .spin_before = {}, .spin_after = {}}};
@@ -57,8 +57,8 @@ TEST_CASE("a summary reads back equal") {
   CHECK(read.histories.at("corner").at("displacement_y").min == -0.0418);
   CHECK(read.contacts.at("stop").episodes.at(0).velocity_before == Vec2{0, -80});
   CHECK(read.contacts.at("stop").episodes.at(0).tangential_restitution == -0.25);
-  CHECK(read.contacts.at("stop").episodes.at(0).slip_before == -8);
-  CHECK(read.contacts.at("stop").episodes.at(0).slip_after == -2);
+  CHECK(read.contacts.at("stop").episodes.at(0).slip_velocity_before == -8);
+  CHECK(read.contacts.at("stop").episodes.at(0).slip_velocity_after == -2);
   CHECK(read.contacts.at("stop").episodes.at(0).spin_after.at("beam") == 1.0 / 3);
   CHECK(std::isnan(read.contacts.at("stop").episodes.at(1).tangential_restitution));
   CHECK(read.contacts.at("stop").episodes.at(1).spin_after.empty());
@@ -84,9 +84,9 @@ TEST_CASE("the names that scripts rely on") {
     CHECK(json.at("contacts").at("stop").contains(name));
   }
   CHECK(json.at("contacts").at("stop").at("episodes").size() == 2);
-  for (const char* name :
-       {"first_touch", "separation", "duration", "impulse", "peak_force", "velocity_before", "velocity_after",
-        "restitution", "tangential_restitution", "slip_before", "slip_after", "spin_before", "spin_after"}) {
+  for (const char* name : {"first_touch", "separation", "duration", "impulse", "peak_force", "velocity_before",
+                           "velocity_after", "restitution", "tangential_restitution", "slip_velocity_before",
+                           "slip_velocity_after", "spin_before", "spin_after"}) {
     CHECK(json.at("contacts").at("stop").at("episodes").at(0).contains(name));
   }
 }

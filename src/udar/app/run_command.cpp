@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <csignal>
 #include <ctime>
 #include <filesystem>
+#include <functional>
 
 #include "udar/app/commands.hpp"
 #include "udar/app/status_line.hpp"
@@ -49,11 +51,27 @@ std::string command_text(const RunArguments& arguments) {
   return text;
 }
 
+/// Peak force from which on a contact is shown, N: in a heap thousands of bodies meet, and the hardest 20 say enough.
+double shown_from(const std::map<std::string, ContactSummary>& contacts) {
+  constexpr std::size_t most = 20;
+  std::vector<double> peaks;
+  for (const auto& [name, c] : contacts) peaks.push_back(c.episodes.empty() ? 0 : c.peak_force);
+  if (peaks.size() <= most) return 0;
+  std::nth_element(peaks.begin(), peaks.begin() + most - 1, peaks.end(), std::greater<>());
+  return peaks[most - 1];
+}
+
 void print_contacts(const Summary& summary) {
   if (summary.contacts.empty()) return;
   say("\n{:<16}{:>11}{:>11}{:>11}{:>15}{:>12}{:>13}\n", "contact", "touch", "left", "duration", "99 % of push",
       "peak force", "restitution");
+  const double least = shown_from(summary.contacts);
+  long long hidden = 0;
   for (const auto& [name, c] : summary.contacts) {
+    if (least > 0 && (c.episodes.empty() || c.peak_force < least)) {
+      ++hidden;
+      continue;
+    }
     if (c.episodes.empty()) {
       say("{:<16}{:>11}\n", name, "none");
       continue;
@@ -65,6 +83,7 @@ void print_contacts(const Summary& summary) {
         c.episodes.size() == 1 && restitution == restitution ? fmt::format("{:.3f}", restitution) : "-",
         c.episodes.size() > 1 ? fmt::format("  in {} episodes", c.episodes.size()) : "");
   }
+  if (hidden > 0) say("and {} with less force, all in summary.json\n", hidden);
 }
 
 void print_result(const Summary& s, const fs::path& folder) {

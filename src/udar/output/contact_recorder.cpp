@@ -220,12 +220,12 @@ void ContactRecorder::add_rotation(const Partners& partners, const Touch& touch,
   };
   const Vec2 tangent = (1 / length(push)) * perpendicular(push);
   const Vec2 before = relative(false);
-  e.slip_before = dot(before, tangent);
-  e.slip_after = dot(relative(true), tangent);
+  e.slip_velocity_before = dot(before, tangent);
+  e.slip_velocity_after = dot(relative(true), tangent);
   // Less than this of the whole is a head-on impact and what rounding and the mesh make of it.
   constexpr double nothing = 1e-6;
-  if (touch.over && std::fabs(e.slip_before) > nothing * length(before)) {
-    e.tangential_restitution = -e.slip_after / e.slip_before;
+  if (touch.over && std::fabs(e.slip_velocity_before) > nothing * length(before)) {
+    e.tangential_restitution = -e.slip_velocity_after / e.slip_velocity_before;
   }
 }
 

@@ -41,8 +41,8 @@ void for_each_member(T& s, Visit visit) {
   visit("velocity_after", s.velocity_after);
   visit("restitution", s.restitution);
   visit("tangential_restitution", s.tangential_restitution);
-  visit("slip_before", s.slip_before);
-  visit("slip_after", s.slip_after);
+  visit("slip_velocity_before", s.slip_velocity_before);
+  visit("slip_velocity_after", s.slip_velocity_after);
   visit("spin_before", s.spin_before);
   visit("spin_after", s.spin_after);
 }

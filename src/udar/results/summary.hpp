@@ -40,8 +40,9 @@ struct EpisodeSummary {
   /// Velocity along the boundary at the place of contact before over the same after, sign turned: -1 without friction,
   /// 0 where it ends up rolling, 1 where it is thrown back.
   double tangential_restitution = no_number;
-  double slip_before = no_number;  ///< m/s, that velocity, along the direction of the push turned by +90 degrees
-  double slip_after = no_number;   ///< m/s
+  double slip_velocity_before =
+      no_number;  ///< m/s, that velocity, along the direction of the push turned by +90 degrees
+  double slip_velocity_after = no_number;     ///< m/s
   std::map<std::string, double> spin_before;  ///< kg m2/s, of each body that touched, about its centre of mass
   std::map<std::string, double> spin_after;
 };
