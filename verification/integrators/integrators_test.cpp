@@ -22,6 +22,7 @@ struct Oscillator {
   explicit Oscillator(Integrator kind, double step, double start_speed = speed)
       : model(build_model(with(kind, start_speed))), work(model, 1), state(rest_state(model)) {
     find_frequencies(model, state, work);
+    touch_bodies(model, state, work);
     choose_time_step(model, state, work);
     state.clock.next_step = step;
     open_books(model, state);
@@ -38,6 +39,7 @@ struct Oscillator {
   void step(double next) {
     advance_clock(model, state);
     state.clock.next_step = next;
+    touch_bodies(model, state, work);
     sweep(model, state, work);
     close_books(model, state, work);
   }

@@ -21,6 +21,10 @@ struct Box {
   [[nodiscard]] constexpr bool holds(Vec2 p) const {
     return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y;
   }
+  /// Has it a point in common with another one?
+  [[nodiscard]] constexpr bool meets(const Box& b) const {
+    return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y;
+  }
   /// The box with `margin` more on every side.
   [[nodiscard]] constexpr Box grown(double margin) const {
     return {low - Vec2{margin, margin}, high + Vec2{margin, margin}};

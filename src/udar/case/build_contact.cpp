@@ -134,7 +134,7 @@ void add_contact_nodes(Model& model) {
   for (Index b = 0; b < model.bodies.size(); ++b) add_segments(model, b, softness[b]);
   double shortest = std::numeric_limits<double>::infinity();
   for (const double size : model.contact_node_sizes) shortest = std::min(shortest, size);
-  model.contact_margin = 0.5 * shortest;
+  model.contact_margin = 0.25 * shortest;
 }
 
 void add_body_pairs(Model& model, const Case& input) {

@@ -38,15 +38,6 @@ void hold(const Model& model, State& state, const HeldNode& held, NodeSums& sums
 
 }  // namespace
 
-Box velocities_at(const Model& model, const State& state, const OuterNodes& nodes) {
-  Box box;
-  for (std::size_t c = nodes.contact_begin; c < nodes.contact_end; ++c) {
-    const NodeRecord& r = state.nodes[model.contact_nodes[c]];
-    box.include({r.vx, r.vy});
-  }
-  return box;
-}
-
 NodeTask node_task(const Model& model, const State& state) {
   const Clock& clock = state.clock;
   NodeTask task{.last_step = clock.last_step,
@@ -87,7 +78,7 @@ void accelerate_nodes(const Model& model, State& state, Workspace& work, std::si
   if (task.damping > 0) task.damping_reference = damping_reference(model, state, block.body);
   work.node_sums[b] = kernel(task);
   for (std::size_t k = outer.held_begin; k < outer.held_end; ++k) hold(model, state, work.held[k], work.node_sums[b]);
-  if (!model.segments.empty()) work.bodies.velocities[b] = velocities_at(model, state, outer);
+  note_outer_nodes(model, state, work, b);
 }
 
 }  // namespace udar

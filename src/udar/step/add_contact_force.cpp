@@ -10,15 +10,28 @@ namespace {
 /// Dashpot of a contact spring with the given fraction of critical damping on its node, N s/m.
 double dashpot(double fraction, double stiffness, double mass) { return 2 * fraction * std::sqrt(stiffness * mass); }
 
+/// Is a box of nodes out of an obstacle? Its middle is then farther from it than half of the box.
+template <class PreparedShape>
+bool is_far(const PreparedShape& shape, const Obstacle& obstacle, const Clock& clock, const Box& reach) {
+  if (reach.low.x > reach.high.x) return true;
+  const Vec2 moved = clock.time.value() * obstacle.velocity;
+  const Box box{reach.low - moved, reach.high - moved};
+  if (!obstacle.bounds.meets(box)) return true;
+  const Vec2 middle = 0.5 * (box.low + box.high);
+  constexpr double rounding = 1 + 1e-9;
+  return shape.gap(middle).distance > 0.5 * rounding * length(box.size());
+}
+
 template <class PreparedShape>
 ContactSums touch_obstacle(const Model& model, const State& state, const Obstacle& obstacle, const PreparedShape& shape,
-                           const OuterNodes& nodes, bool none_touched, SpringState* springs, NodeForces& forces) {
+                           const OuterNodes& nodes, bool none_touched, const OuterMotion& outer, SpringState* springs,
+                           NodeForces& forces) {
   const double h = state.clock.last_step;
   const Vec2 moved = state.clock.time.value() * obstacle.velocity;
   ContactSums sums;
   for (std::size_t c = nodes.contact_begin; c < nodes.contact_end; ++c) {
     const Index node = model.contact_nodes[c];
-    const NodeRecord& record = state.nodes[node];
+    const NodeRecord& record = outer.nodes[c];
     const Vec2 place = place_after(record, h) - moved;
     const bool inside = obstacle.bounds.holds(place) && shape.holds(place);
     if (!inside && (none_touched || springs[c].touches == 0)) continue;
@@ -47,13 +60,17 @@ void add_contact_force(const Model& model, State& state, Workspace& work, std::s
     const Vec2 force = work.bodies.forces[c];
     if (force != Vec2{}) forces.push(model.contact_nodes[c], force);
   }
+  const Box reach = work.bodies.outer.reach(b, state.clock.last_step);
   SpringState* springs = state.contacts.data();
   for (std::size_t o = 0; o < model.obstacles.size(); ++o, springs += model.contact_nodes.size()) {
     const Obstacle& obstacle = model.obstacles[o];
-    const bool none_touched = state.obstacles[o].touching == 0;  // then nobody's springs need to be looked at
-    work.contact_sums[o * blocks + b] = std::visit(
+    ContactSums& sums = work.contact_sums[o * blocks + b];
+    // Then nobody's springs need to be looked at. Of a state that the workspace does not come from that is not known.
+    const bool none_touched = state.obstacles[o].touching == 0 || (work.bodies.outer.goes_on && sums.touching == 0);
+    sums = std::visit(
         [&](const auto& shape) {
-          return touch_obstacle(model, state, obstacle, shape, nodes, none_touched, springs, forces);
+          if (none_touched && is_far(shape, obstacle, state.clock, reach)) return ContactSums{};
+          return touch_obstacle(model, state, obstacle, shape, nodes, none_touched, work.bodies.outer, springs, forces);
         },
         obstacle.prepared);
   }
@@ -107,7 +124,8 @@ void note_deepest(const Model& model, State& state) {
 
 }  // namespace
 
-void enter_springs(const Model& model, State& state, const Workspace& work) {
+void enter_springs(const Model& model, State& state, Workspace& work) {
+  work.bodies.outer.noted_for = state.clock.step + 1;
   Ledger& ledger = state.ledger;
   ledger.contact_energy = 0;
   ledger.tangential_energy = 0;

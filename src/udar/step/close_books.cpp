@@ -166,7 +166,7 @@ Account sum_forces(const std::vector<Part>& parts, const std::vector<Vec2>& forc
 }
 
 /// Work of the stresses and of the springs, J.
-void enter_elements_and_springs(const Model& model, State& state, const Workspace& work) {
+void enter_elements_and_springs(const Model& model, State& state, Workspace& work) {
   double stress_work = 0;
   double plastic_work = 0;
   for (const ElementSums& sums : work.element_sums) {

@@ -136,10 +136,7 @@ void move_rigid_bodies(const Model& model, State& state, Workspace& work) {
   for (std::size_t k = 0; k < model.rigid_bodies.size(); ++k) {
     const RigidBody& rigid = model.rigid_bodies[k];
     move(model, state, work, rigid, state.rigid[k], task);
-    if (model.segments.empty()) continue;
-    for (std::size_t b = rigid.block_begin; b < rigid.block_end; ++b) {
-      work.bodies.velocities[b] = velocities_at(model, state, work.outer_nodes[b]);
-    }
+    for (std::size_t b = rigid.block_begin; b < rigid.block_end; ++b) note_outer_nodes(model, state, work, b);
   }
 }
 

@@ -28,11 +28,13 @@ void accelerate_nodes(const Model& model, State& state, Workspace& work, std::si
 /// What all blocks of nodes have in common in a step: times, weights of the integrator, gravity, damping.
 NodeTask node_task(const Model& model, const State& state);
 
-/// Velocities of the coming step that the contact nodes of a block have, m/s.
-Box velocities_at(const Model& model, const State& state, const OuterNodes& nodes);
+/// Notes where the outer nodes of a block are and how they move on; `look_at_outer_nodes`, the first part of
+/// touch_bodies, does it for a state that the workspace does not come from.
+void note_outer_nodes(const Model& model, const State& state, Workspace& work, std::size_t block);
+void look_at_outer_nodes(const Model& model, const State& state, Workspace& work);
 
 /// Part of close_books: what the springs hold and have lost, and how deep they are pressed.
-void enter_springs(const Model& model, State& state, const Workspace& work);
+void enter_springs(const Model& model, State& state, Workspace& work);
 /// Part of close_books: adds up the forces of each pair of bodies that touch, and opens a book for those that never
 /// did.
 void sum_pair_forces(const Model& model, State& state, BodyContact& contact);

@@ -27,32 +27,27 @@ void drop_own_segments(const Model& model, Neighbours& near) {
   near.near.resize(kept);
 }
 
-/// Smallest box that holds the velocities of all points, m/s. Within the sweep every block notes those of its own
-/// nodes; a state that the workspace does not come from is looked at as a whole.
-Box velocities(const Model& model, const State& state, const BodyContact& contact, bool goes_on) {
+/// Smallest box that holds the velocities of all points, m/s.
+Box velocities(const Model& model, const BodyContact& contact) {
   Box all;
-  if (goes_on) {
-    for (const Box& box : contact.velocities) {
-      if (box.low.x > box.high.x) continue;
-      all.include(box.low);
-      all.include(box.high);
-    }
-  } else {
-    for (const Index node : model.contact_nodes) all.include({state.nodes[node].vx, state.nodes[node].vy});
+  for (const Box& box : contact.outer.velocities) {
+    if (box.low.x > box.high.x) continue;
+    all.include(box.low);
+    all.include(box.high);
   }
   for (const ObstacleCorner& corner : model.obstacle_corners) all.include(model.obstacles[corner.obstacle].velocity);
   return all;
 }
 
 /// Where the points are, a time after t_n, m.
-void place_points(const Model& model, const State& state, double after, std::vector<Vec2>& places) {
+void place_points(const Model& model, const State& state, double after, BodyContact& contact) {
   const std::size_t nodes = model.contact_nodes.size();
-  for (std::size_t c = 0; c < nodes; ++c) places[c] = place_after(state.nodes[model.contact_nodes[c]], after);
+  for (std::size_t c = 0; c < nodes; ++c) contact.places[c] = place_after(contact.outer.nodes[c], after);
   // The clock is at the end of the step.
   const double time = state.clock.time.value() - state.clock.last_step + after;
   for (std::size_t k = 0; k < model.obstacle_corners.size(); ++k) {
     const ObstacleCorner& corner = model.obstacle_corners[k];
-    places[nodes + k] = corner.place + time * model.obstacles[corner.obstacle].velocity;
+    contact.places[nodes + k] = corner.place + time * model.obstacles[corner.obstacle].velocity;
   }
 }
 
@@ -61,12 +56,12 @@ void place_points(const Model& model, const State& state, double after, std::vec
 void keep_list(const Model& model, const State& state, BodyContact& contact) {
   const Clock& clock = state.clock;
   const bool goes_on = contact.listed && clock.step == contact.step + 1;
-  contact.moved = length(velocities(model, state, contact, goes_on).size()) * clock.last_step;
+  contact.moved = length(velocities(model, contact).size()) * clock.last_step;
   contact.travel += contact.moved;
   contact.step = clock.step;
   if (goes_on && contact.travel <= model.contact_margin) return;
 
-  place_points(model, state, 0, contact.places);
+  place_points(model, state, 0, contact);
   std::vector<SegmentEnds> segments;
   segments.reserve(model.segments.size());
   for (const Segment& s : model.segments) segments.push_back({contact.places[s.a], contact.places[s.b]});
@@ -175,6 +170,7 @@ void push(const Model& model, const CornerTouch& touch, BodyContact& contact) {
 void limit_step(const Model& model, BodyContact& contact) {
   std::size_t rigid = 0;
   for (std::size_t c = 0; c < model.contact_nodes.size(); ++c) {
+    if (contact.springs[c] == 0) continue;
     const Index node = model.contact_nodes[c];
     const double inverse_mass = model.inverse_mass[node];
     while (rigid < model.rigid_bodies.size() && model.rigid_bodies[rigid].body < model.contact_bodies[c]) ++rigid;
@@ -199,6 +195,7 @@ void clear_bounds(BodyContact& contact) {
 }  // namespace
 
 void touch_bodies(const Model& model, State& state, Workspace& work) {
+  look_at_outer_nodes(model, state, work);
   BodyContact& contact = work.bodies;
   if (model.segments.empty()) return;
   keep_list(model, state, contact);
@@ -208,7 +205,7 @@ void touch_bodies(const Model& model, State& state, Workspace& work) {
       !contact.near.empty() || !state.touches.empty() || !state.corner_touches.empty() || !model.ties.empty();
   if (!contact.pushes) return;
 
-  place_points(model, state, state.clock.last_step, contact.places);
+  place_points(model, state, state.clock.last_step, contact);
   find_touches(model, state, work);
   std::fill(contact.springs.begin(), contact.springs.end(), 0.0);
   std::fill(contact.dashpots.begin(), contact.dashpots.end(), 0.0);

@@ -144,7 +144,7 @@ Foot TouchSearch::nearest_foot(std::uint32_t point, const std::uint32_t* near, c
 
 Vec2 TouchSearch::moved(std::uint32_t point) const {
   if (model_.is_obstacle_corner(point)) return h_ * model_.obstacle_of(point).velocity;
-  const NodeRecord& r = state_.nodes[model_.contact_nodes[point]];
+  const NodeRecord& r = contact_.outer.nodes[point];
   return {h_ * r.vx, h_ * r.vy};
 }
 

@@ -36,7 +36,9 @@ ContactSums& ContactSums::operator+=(const ContactSums& other) {
 }
 
 BodyContact::BodyContact(const Model& model)
-    : velocities(model.node_blocks.size()),
+    : outer{.nodes = std::vector<NodeRecord>(model.contact_nodes.size()),
+            .places = std::vector<Box>(model.node_blocks.size()),
+            .velocities = std::vector<Box>(model.node_blocks.size())},
       corner_forces(model.obstacles.size()),
       rigid_excess(model.rigid_bodies.size()),
       rigid_dashpot(model.rigid_bodies.size()) {

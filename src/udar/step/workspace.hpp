@@ -68,16 +68,31 @@ struct PairForces {
   std::uint64_t touching = 0;
 };
 
+/// The outer nodes at t_n with the velocities of the coming step, as the sweep notes them while their blocks are at
+/// hand: contact looks at all of them before it.
+struct OuterMotion {
+  static constexpr std::uint64_t never = ~std::uint64_t{0};
+
+  std::vector<NodeRecord> nodes;    ///< in the order of Model::contact_nodes
+  std::vector<Box> places;          ///< m, of those of each block of nodes
+  std::vector<Box> velocities;      ///< m/s
+  std::uint64_t noted_for = never;  ///< the step that may go on from them
+  bool goes_on = false;             ///< this step does: what the workspace knows is of the step before it
+
+  /// Holds the places of a block's outer nodes at the end of a step (s), m.
+  [[nodiscard]] Box reach(std::size_t block, double step) const;
+};
+
 /// Contact of bodies with each other, in one step.
 struct BodyContact {
   BodyContact(const Model& model);
 
   Neighbours near;  ///< segments near each point, not its own
   bool listed = false;
-  std::uint64_t step = 0;                 ///< in which the list was last looked after
-  double travel = 0;                      ///< m, by which points and segments may have come nearer since it was made
-  double moved = 0;                       ///< m, the same in this step
-  std::vector<Box> velocities;            ///< m/s, of the contact nodes of each block of nodes
+  std::uint64_t step = 0;  ///< in which the list was last looked after
+  double travel = 0;       ///< m, by which points and segments may have come nearer since it was made
+  double moved = 0;        ///< m, the same in this step
+  OuterMotion outer;
   bool pushes = false;                    ///< there may be forces
   std::vector<Vec2> places;               ///< m, of the points at the end of the step
   std::vector<Vec2> forces;               ///< N, on each point
