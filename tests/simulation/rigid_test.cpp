@@ -8,6 +8,7 @@
 
 #include "tests/simulation/example.hpp"
 #include "udar/case/build_model.hpp"
+#include "udar/output/observer.hpp"
 #include "udar/step/step.hpp"
 
 namespace udar {
@@ -29,6 +30,7 @@ Case rigid_block(double element_size = 0.01) {
 /// A rigid hammer strikes a deformable anvil off its middle, with friction; nothing holds either.
 Case hammer_on_anvil(const Law& law) {
   Case input = rigid_block();
+  input.bodies[0].name = "hammer";
   input.run = {.end_time = 300e-6};
   input.contact.friction = 0.3;
   input.materials.push_back({.name = "soft", .density = 2700, .law = law});
@@ -145,6 +147,30 @@ TEST_CASE("a rigid body and one that deforms: momentum and spin stay, the books 
     CHECK(state.body_momentum[1].y < -0.1 * length(momentum));
     CHECK(state.touches.empty());
   }
+}
+
+TEST_CASE("histories of a rigid body have its angle, those of a pair the push of the one on the other") {
+  const Model model = build_model(hammer_on_anvil(Elastic{.young_modulus = 70e9, .poisson_ratio = 0.3}));
+  Workspace work(model, 1);
+  State state = start(model, work);
+  run(model, state, work);
+  const std::vector<Observer> all = make_observers(model);
+  const auto last = [&](const std::string& name, const std::string& column) {
+    const auto o = std::find_if(all.begin(), all.end(), [&](const Observer& at) { return at.name == name; });
+    REQUIRE(o != all.end());
+    std::vector<double> values(o->columns.size());
+    o->measure(state, values);
+    const auto c =
+        std::find_if(o->columns.begin(), o->columns.end(), [&](const Column& at) { return at.name == column; });
+    REQUIRE(c != o->columns.end());
+    return values[static_cast<std::size_t>(c - o->columns.begin())];
+  };
+  CHECK(last("hammer", "spin") == doctest::Approx(model.rigid_bodies[0].inertia * last("hammer", "angular_velocity")));
+  CHECK(last("hammer", "angle") == state.rigid[0].angle);
+  CHECK(last("hammer", "angle") != 0);
+  const double gained = last("hammer", "momentum_y") - model.bodies[0].mass * -30;
+  CHECK(last("hammer-anvil", "impulse_y") == doctest::Approx(gained).epsilon(1e-12));
+  CHECK(last("hammer-anvil", "touching_nodes") == 0);
 }
 
 TEST_CASE("two rigid bodies rebound from each other, and the step follows from their springs") {

@@ -167,6 +167,13 @@ inline Vec2 velocity(const State& state, Index node) {
   return Vec2{r.vx, r.vy} - (0.5 * clock.next_step + clock.next_velocity_ahead) * state.acceleration[node];
 }
 
+/// Rates of a rigid body at t_n.
+inline RigidRate velocity(const State& state, const RigidMotion& motion) {
+  if (!state.velocity.empty()) return motion.now;
+  const Clock& clock = state.clock;
+  return motion.velocity + (-0.5 * clock.next_step - clock.next_velocity_ahead) * motion.accelerations[0];
+}
+
 /// Did this element flow in the last step?
 inline bool flows(const State& state, Index element) { return (state.flowing[element / 8] >> element % 8 & 1) != 0; }
 

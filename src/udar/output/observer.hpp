@@ -28,17 +28,21 @@ Observer observe_element(const Model& model, const ElementObserver& element);
 /// Nodes taken together: centre of mass, its velocity and acceleration (sum of forces over mass, unfiltered), momentum,
 /// spin momentum about the centre of mass.
 Observer observe_region(const Model& model, const RegionObserver& region);
+/// The same of a body; of a rigid one also its angle and angular velocity.
 Observer observe_body(const Model& model, std::size_t number);
 /// Force and impulse of an obstacle on the bodies, and how many nodes touch.
 Observer observe_obstacle(const Model& model, std::size_t obstacle);
+/// Force and impulse of the second of two bodies on the first, and how many of their nodes touch.
+Observer observe_pair(const Model& model, Index first, Index second);
 /// Sum of the reactions at a support.
 Observer observe_support(const Model& model, std::size_t support);
 /// Energy by term; momentum and impulses by term.
 Observer observe_energy(const Model& model);
 Observer observe_momentum(const Model& model);
 
-/// What is always watched, energy and momentum, bodies, obstacles, supports, and everything the model asks for. Of
-/// several with one name all but the first get a number: `beam`, `beam_2`.
+/// What is always watched, energy and momentum, bodies, obstacles, supports, and everything the model asks for; pairs
+/// of bodies where these are few, or an exception is made for them. Of several with one name all but the first get a
+/// number: `beam`, `beam_2`.
 std::vector<Observer> make_observers(const Model& model);
 
 /// Elastic energy from the stresses themselves, s : C^-1 : s / 2 over the volume now, J.

@@ -117,6 +117,34 @@ Observer observe_element(const Model&, const ElementObserver& element) {
           }};
 }
 
+namespace {
+
+Observer observe_rigid_body(const Body& body, std::size_t number, std::size_t rigid) {
+  std::vector<Column> columns = together_columns;
+  columns.insert(columns.end(), {{"angle", "rad"}, {"angular_velocity", "rad/s"}});
+  return {body.name, columns, always, [&body, number, rigid](const State& state, std::span<double> out) {
+            fill(together(state.body_sums[number], body.mass), body.mass, out);
+            out[together_columns.size()] = state.rigid[rigid].angle;
+            out[together_columns.size() + 1] = velocity(state, state.rigid[rigid]).angular;
+          }};
+}
+
+/// What a book of contact says, in the columns of contact_columns.
+const std::vector<Column> contact_columns{
+    {"force_x", "N"}, {"force_y", "N"}, {"impulse_x", "N s"}, {"impulse_y", "N s"}, {"touching_nodes", ""}};
+
+void fill(const ContactBook& book, std::span<double> out) {
+  const Vec2 impulse = book.total.impulse();
+  const std::array values{book.total.force.x, book.total.force.y, impulse.x, impulse.y,
+                          static_cast<double>(book.touching)};
+  std::copy(values.begin(), values.end(), out.begin());
+}
+
+/// Are there few enough bodies to watch each pair?
+bool few_bodies(const Model& model) { return model.bodies.size() <= 3; }
+
+}  // namespace
+
 Observer observe_region(const Model& model, const RegionObserver& region) {
   return {region.name, together_columns, region.window, [&model, &region](const State& state, std::span<double> out) {
             fill(together(sum_nodes(model, state, region.nodes), region.mass), region.mass, out);
@@ -125,21 +153,24 @@ Observer observe_region(const Model& model, const RegionObserver& region) {
 
 Observer observe_body(const Model& model, std::size_t number) {
   const Body& body = model.bodies[number];
+  for (std::size_t k = 0; k < model.rigid_bodies.size(); ++k) {
+    if (model.rigid_bodies[k].body == number) return observe_rigid_body(body, number, k);
+  }
   return {body.name, together_columns, always, [&body, number](const State& state, std::span<double> out) {
             fill(together(state.body_sums[number], body.mass), body.mass, out);
           }};
 }
 
 Observer observe_obstacle(const Model& model, std::size_t obstacle) {
-  return {model.obstacles[obstacle].name,
-          {{"force_x", "N"}, {"force_y", "N"}, {"impulse_x", "N s"}, {"impulse_y", "N s"}, {"touching_nodes", ""}},
-          always,
-          [obstacle](const State& state, std::span<double> out) {
-            const ContactBook& book = state.obstacles[obstacle];
-            const Vec2 impulse = book.total.impulse();
-            const std::array values{book.total.force.x, book.total.force.y, impulse.x, impulse.y,
-                                    static_cast<double>(book.touching)};
-            std::copy(values.begin(), values.end(), out.begin());
+  return {model.obstacles[obstacle].name, contact_columns, always,
+          [obstacle](const State& state, std::span<double> out) { fill(state.obstacles[obstacle], out); }};
+}
+
+Observer observe_pair(const Model& model, Index first, Index second) {
+  return {model.bodies[first].name + "-" + model.bodies[second].name, contact_columns, always,
+          [first, second](const State& state, std::span<double> out) {
+            const ContactBook* const book = book_of_pair(state, first, second);
+            fill(book != nullptr ? *book : ContactBook{}, out);
           }};
 }
 
@@ -170,6 +201,12 @@ std::vector<Observer> make_observers(const Model& model) {
   for (const RegionObserver& region : model.observed_regions) all.push_back(observe_region(model, region));
   for (std::size_t b = 0; b < model.bodies.size(); ++b) all.push_back(observe_body(model, b));
   for (std::size_t o = 0; o < model.obstacles.size(); ++o) all.push_back(observe_obstacle(model, o));
+  for (Index second = 0; few_bodies(model) && second < model.bodies.size(); ++second) {
+    for (Index first = 0; first < second; ++first) all.push_back(observe_pair(model, first, second));
+  }
+  for (const BodyPairs::Exception& pair : model.body_pairs.exceptions) {
+    if (!few_bodies(model) && pair.first != pair.second) all.push_back(observe_pair(model, pair.first, pair.second));
+  }
   for (std::size_t s = 0; s < model.supports.size(); ++s) all.push_back(observe_support(model, s));
   tell_apart(all);
   return all;
