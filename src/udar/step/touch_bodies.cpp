@@ -125,36 +125,24 @@ void find_touches(const Model& model, State& state, Workspace& work) {
   }
 }
 
-/// Adds the forces of a touch on its points, and what it adds to the bounds on the frequency there, see
-/// Model::contact_allowance: k |g| (sum of all |g|), with g the share of a point.
-void push(const Model& model, const BodyTouch& touch, BodyContact& contact) {
-  for_each_force(model.segments, touch,
-                 [&](std::uint32_t point, const TouchForces& f) { contact.forces[point] += f.total(); });
-  const double stiffness =
-      friction_of(model, touch) > 0 ? std::max(touch.stiffness, touch.tangential_stiffness) : touch.stiffness;
-  const double dashpot = dashpot_of(model, touch);
-  const double tilt = touch.lever > 0 ? touch.springs.penetration / touch.lever : 0;
-  const double all = 2 + 2 * tilt;
-  const auto add = [&](std::uint32_t point, double share) {
-    contact.springs[point] += stiffness * share * all;
-    contact.dashpots[point] += dashpot * share * all;
-  };
-  add(touch.point, 1);
-  for (const TouchShare& share : shares_of(model.segments, touch.segment, touch.along)) {
-    add(share.point, share.weight + std::fabs(share.couple) * tilt);
-  }
+/// Sum of the shares |g| of all that moves in a touch, see Model::contact_allowance. `tilt` is its depth over its lever.
+double sum_of_shares(const BodyTouch&, double tilt) { return 2 + 2 * tilt; }
+/// A corner of an obstacle moves by itself, but it may relieve a node. Its spring changes along the segment: |w'| d / L
+/// and |w''| (d / L)^2 / 2 come to w.
+double sum_of_shares(const CornerTouch& touch, double tilt) {
+  return (1 + 8 * tilt) * (1 + 2 * tilt + (touch.relieves != 0 ? 1 : 0));
 }
 
-/// The same for a corner, which moves by itself.
-void push(const Model& model, const CornerTouch& touch, BodyContact& contact) {
+/// Adds the forces of a touch on its points, and what it adds to the bounds on the frequency there.
+template <class Touch>
+void push(const Model& model, const Touch& touch, BodyContact& contact) {
   for_each_force(model.segments, touch,
                  [&](std::uint32_t point, const TouchForces& f) { contact.forces[point] += f.total(); });
-  const double stiffness =
-      friction_of(model, touch) > 0 ? std::max(touch.stiffness, touch.tangential_stiffness) : touch.stiffness;
+  const bool rubs = friction_of(model, touch) > 0;
+  const double stiffness = rubs ? std::max(touch.stiffness, touch.tangential_stiffness) : touch.stiffness;
   const double dashpot = dashpot_of(model, touch);
   const double tilt = touch.lever > 0 ? touch.springs.penetration / touch.lever : 0;
-  // Its spring changes along the segment: |w'| d / L and |w''| (d / L)^2 / 2 come to w. So does the end it relieves.
-  const double all = (1 + 8 * tilt) * (1 + 2 * tilt + (touch.relieves != 0 ? 1 : 0));
+  const double all = sum_of_shares(touch, tilt);
   const auto add = [&](std::uint32_t point, double share) {
     contact.springs[point] += stiffness * share * all;
     contact.dashpots[point] += dashpot * share * all;
@@ -162,7 +150,11 @@ void push(const Model& model, const CornerTouch& touch, BodyContact& contact) {
   for (const TouchShare& share : shares_of(model.segments, touch.segment, touch.along)) {
     add(share.point, share.weight + std::fabs(share.couple) * tilt);
   }
-  if (touch.relieves != 0) add(touch.relieved, 1);
+  if constexpr (std::is_same_v<Touch, CornerTouch>) {
+    if (touch.relieves != 0) add(touch.relieved, 1);
+  } else {
+    add(touch.point, 1);
+  }
 }
 
 /// Bound on what touches add to the largest frequency^2, 1/s2, beyond what the elements' bounds allow for, and on what
