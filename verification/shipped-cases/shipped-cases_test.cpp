@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 #include "udar/base/box.hpp"
 #include "udar/simulation/simulation.hpp"
@@ -90,6 +92,245 @@ TEST_CASE("stack: the heap comes to rest and weighs what its blocks weigh") {
     CHECK(std::fabs(box_of(run, b).low.x - rest.low.x) < 0.01);
   }
   CHECK(below("energy error", run.state.ledger.energy_error(), 2e-3));
+}
+
+namespace {
+
+/// What presses one face of a smooth rigid wedge into a rigid, perfectly plastic half-plane.
+struct Indentation {
+  double pressure = 0;  ///< over the yield stress (Tresca)
+  double width = 0;     ///< of what the face presses, seen along the axis, over the depth below the first surface
+  [[nodiscard]] double load() const { return pressure * width; }
+};
+
+/// Hill, Lee and Tupper (1947); Hill, The Mathematical Theory of Plasticity, 1950, chapter VIII. `angle` is that
+/// between the axis and a face, rad.
+Indentation indentation(double angle) {
+  const double fan = root_between(
+      [&](double psi) { return std::cos(psi) / (1 + std::sin(psi)) - std::cos(2 * angle - psi); }, 0, 2 * angle);
+  const double depth_over_face = std::cos(angle) - std::sin(angle - fan);
+  return {1 + fan, std::sin(angle) / depth_over_face};
+}
+
+/// Lowest node of a body, m.
+double lowest(const Run& run, std::size_t body) { return box_of(run, body).low.y; }
+
+/// Area of a body now, m2.
+double area_of(const Run& run, std::size_t body) {
+  double area = 0;
+  for (const Edge& e : run.model.bodies[body].boundary) {
+    area += 0.5 * cross(place(run.state, e.a), place(run.state, e.b));
+  }
+  return area;
+}
+
+/// Area of the hollow in the top of a body, m2: between its top and the line through its upper corners where that lies
+/// above.
+double area_below_corners(const Run& run, std::size_t body) {
+  const auto& sides = run.model.bodies[body].sides;
+  const auto top = std::find_if(sides.begin(), sides.end(), [](const NamedEdges& s) { return s.name == "top"; });
+  const double level = 0.5 * (run.state.nodes[top->edges.front().a].y + run.state.nodes[top->edges.back().b].y);
+  double area = 0;
+  for (const Edge& e : top->edges) {
+    const Vec2 a = place(run.state, e.a);
+    const Vec2 b = place(run.state, e.b);
+    const double deep_a = std::max(0.0, level - a.y);
+    const double deep_b = std::max(0.0, level - b.y);
+    // Where the edge passes the level, only a part of it counts.
+    const bool passes = (a.y < level) != (b.y < level);
+    const double part = passes ? (deep_a + deep_b) / std::fabs(a.y - b.y) : 1;
+    area += 0.5 * (deep_a + deep_b) * part * (a.x - b.x);
+  }
+  return area;
+}
+
+/// Angle of the straight line nearest to some places, rad against the x-axis.
+double slope_of(const std::vector<Vec2>& places) {
+  Vec2 mean;
+  for (const Vec2 p : places) mean += (1.0 / static_cast<double>(places.size())) * p;
+  double xx = 0;
+  double xy = 0;
+  for (const Vec2 p : places) {
+    xx += (p.x - mean.x) * (p.x - mean.x);
+    xy += (p.x - mean.x) * (p.y - mean.y);
+  }
+  return std::atan2(xy, xx);
+}
+
+constexpr double degree = std::numbers::pi / 180;
+
+}  // namespace
+
+TEST_CASE(
+    "hammer: its momentum is what the anvil gave it, and the first blow is as deep and as long as plasticity says") {
+  const Case input = shipped("hammer");
+  Run run(input);
+  const RigidBody hammer = run.model.rigid_bodies[0];
+  const Vec2 start = run.state.body_momentum[0];
+  const Vec2 both = start + run.state.body_momentum[1];
+  // The edge that strikes first, from the centre of mass, and its velocity.
+  Index edge = run.model.bodies[0].node_begin;
+  for (Index i = edge; i < run.model.bodies[0].node_end; ++i) {
+    if (run.model.rest[i].y < run.model.rest[edge].y) edge = i;
+  }
+  const Vec2 arm = run.model.rest[edge] - hammer.centre;
+  const Vec2 velocity = hammer.start_velocity + hammer.start_spin * perpendicular(arm);
+
+  double first = -1;  // s, first touch, and deepest place of the edge
+  double deepest_time = 0;
+  double depth = 0;
+  bool first_blow = true;
+  double first_impulse = 0;
+  double worst_friction = 0;
+  double last = 0;
+  run.run([&](const Run& now) {
+    const ContactBook* const book = book_of_pair(now.state, 0, 1);
+    if (book == nullptr) return;
+    if (first < 0) first = now.time();
+    if (book->touching > 0) last = now.time();
+    if (first_blow && book->touching == 0 && now.time() > first + 100e-6) first_blow = false;
+    if (first_blow) {
+      first_impulse = book->normal.impulse().y;
+      const double below_face = -now.state.nodes[edge].y;
+      if (below_face > depth) {
+        depth = below_face;
+        deepest_time = now.time() - first;
+      }
+    }
+    for (const BodyTouch& t : now.state.touches) {
+      const double most = 0.2 * length(t.springs.normal_force);
+      worst_friction = std::max(worst_friction, length(t.springs.friction_force) / most);
+    }
+  });
+
+  const Vec2 impulse = book_of_pair(run.state, 0, 1)->total.impulse();
+  const Vec2 gained = run.state.body_momentum[0] - start;
+  CHECK(below("momentum of the hammer less impulse", length(gained - impulse) / length(start), 1e-12));
+  const Vec2 of_floor = run.state.obstacles[0].total.impulse();
+  const Vec2 all = run.state.body_momentum[0] + run.state.body_momentum[1] - both;
+  CHECK(below("momentum of both less impulse of the floor", length(all - of_floor) / length(start), 1e-12));
+  CHECK(below("friction over Coulomb's limit", worst_friction, 1 + 1e-12));
+  CHECK(run.state.touches.empty());
+  CHECK(last < 0.9 * run.model.run.end_time);
+
+  // Impact of a rigid body at a point (Routh 1905): the normal impulse lies between that without friction and without
+  // rebound and twice that of an edge which may not slip.
+  const double nn = 1 / hammer.mass + arm.x * arm.x / hammer.inertia;
+  const double tt = 1 / hammer.mass + arm.y * arm.y / hammer.inertia;
+  const double nt = -arm.x * arm.y / hammer.inertia;
+  const double stuck = nn - nt * nt / tt;
+  MESSAGE("normal impulse of the first blow ", first_impulse, " N s, between ", -velocity.y / nn, " and ",
+          -2 * velocity.y / stuck);
+  CHECK(first_impulse > -velocity.y / nn);
+  CHECK(first_impulse < -2 * velocity.y / stuck);
+
+  // An oscillator: the mass that the edge feels with sliding friction on the spring of plastic indentation by the face,
+  // which lies 10 degrees from the anvil, and by the side.
+  const Tresca& steel = std::get<Tresca>(input.materials[1].law);
+  const double load = indentation(80 * degree).load() + indentation(10 * degree).load();
+  const double spring = load * steel.yield_stress * input.bodies[1].thickness;
+  const double omega = std::sqrt(spring * (nn + 0.2 * nt));
+  CHECK(within("time to the deepest place (s)", deepest_time, 0.5 * std::numbers::pi / omega, 0.25));
+  CHECK(within("depth (m)", depth, -velocity.y / omega, 0.25));
+
+  const Ledger& ledger = run.state.ledger;
+  MESSAGE("parts of the energy: plastic ", ledger.plastic_work.value() / ledger.start_kinetic, ", friction ",
+          ledger.friction_work.value() / ledger.start_kinetic, ", kinetic ",
+          ledger.kinetic_energy / ledger.start_kinetic);
+  CHECK(below("energy error", ledger.energy_error(), 1e-3));
+  CHECK(below("penetration over element", run.state.largest_penetration, 0.05));
+}
+
+TEST_CASE(
+    "wedge: depth, time and rebound of plasticity; the notch has the wedge's angle, its volume stands beside it") {
+  Case input = shipped("wedge");
+  input.run.end_time = 180e-6;  // parted; the rest is flight
+  Run run(input);
+  const Tresca& soft = std::get<Tresca>(input.materials[1].law);
+  const double thickness = input.bodies[0].thickness;
+  const double speed = length(input.bodies[1].velocity);
+  constexpr double cell = 0.5e-3;  // m, of the mesh at the notch
+  const double reduced = 1 / (1 / run.model.bodies[0].mass + 1 / run.model.bodies[1].mass);
+  const double energy = 0.5 * reduced * speed * speed;
+  const auto centre = [&](std::size_t body) {
+    return (1 / run.model.bodies[body].mass) * run.state.body_sums[body].position;
+  };
+  const double level = centre(0).y;
+  const double area = area_of(run, 0);
+  double first = -1;
+  double depth = 0;
+  double deepest_time = 0;
+  double last = 0;
+  std::vector<Index> pressed;  // nodes of the block on the wedge when it is deepest
+  run.run([&](const Run& now) {
+    if (now.state.touches.empty()) return;
+    if (first < 0) first = now.time();
+    last = now.time();
+    const double here = centre(0).y - level - lowest(now, 1);
+    if (here <= depth) return;
+    depth = here;
+    deepest_time = now.time() - first;
+    pressed.clear();
+    for (const BodyTouch& t : now.state.touches) {
+      const Index node = now.model.contact_nodes[t.point];
+      if (node < now.model.bodies[0].node_end) pressed.push_back(node);
+    }
+  });
+
+  const Indentation face = indentation(45 * degree);
+  const double spring = 2 * face.load() * soft.yield_stress * thickness;
+  const double expected = std::sqrt(2 * energy / spring);
+  // Elastic energy under the wedge, all of which might come back: a load on a slab (Johnson, Contact Mechanics, 1985,
+  // eq. 5.57).
+  const double force = spring * expected;
+  const double modulus = soft.young_modulus / (1 - soft.poisson_ratio * soft.poisson_ratio);
+  const double give =
+      force / (std::numbers::pi * modulus * thickness) *
+      (2 * std::log(2 * 0.04 / (face.width * expected)) - soft.poisson_ratio / (1 - soft.poisson_ratio));
+  const double elastic = 0.5 * force * give / energy;
+  // One cell for the tip, the inertia of what flows, what is elastic.
+  const double inertia = 0.25 * input.materials[1].density * speed * speed / (face.pressure * soft.yield_stress);
+  const double bound = cell / expected + inertia + elastic;
+  CHECK(within("depth (m)", depth, expected, bound));
+  CHECK(within("time to the deepest place (s)", deepest_time, 0.5 * std::numbers::pi * std::sqrt(reduced / spring),
+               bound));
+  const double apart =
+      run.state.body_momentum[1].y / run.model.bodies[1].mass - run.state.body_momentum[0].y / run.model.bodies[0].mass;
+  CHECK(apart > 0);
+  CHECK(below("restitution", apart / speed, std::sqrt(elastic)));
+  CHECK(run.state.touches.empty());
+  CHECK(last < 0.9 * run.model.run.end_time);
+
+  // The notch: the nodes that touched the wedge when it was deepest.
+  std::vector<Vec2> left, right;
+  for (const Index node : pressed) {
+    const Vec2 p = place(run.state, node);
+    if (run.model.rest[node].x <= 0) left.push_back(p);
+    if (run.model.rest[node].x >= 0) right.push_back(p);
+  }
+  REQUIRE(left.size() > 1);
+  const double opening = 180 - (slope_of(right) - slope_of(left)) / degree;
+  const double notch = area_below_corners(run, 0);
+  MESSAGE(fmt::format("{} nodes on each face; opening {:.2f} degrees; notch {:.3g} mm2", left.size(), opening,
+                      notch * 1e6));
+  CHECK(std::fabs(opening - 90) < 1);
+  // No force is left on the block: mean stress in the plane is that of its vibrations, which hold the elastic energy.
+  const Ledger& ledger = run.state.ledger;
+  const double volume = area * thickness;
+  const double bulk = soft.young_modulus / (3 * (1 - 2 * soft.poisson_ratio));
+  const double rest = std::sqrt(2 * ledger.elastic_energy() / (bulk * volume)) * area;
+  CHECK(below("volume lost over that of the notch", std::fabs(area_of(run, 0) - area) / notch, rest / notch));
+
+  const auto pairs = partners(run.model, cell, [](Vec2 p) { return Vec2{-p.x, p.y}; });
+  double uneven = 0;
+  for (const auto& [i, j] : pairs) {
+    uneven = std::max(uneven, length(place(run.state, i) - Vec2{-run.state.nodes[j].x, run.state.nodes[j].y}));
+  }
+  MESSAGE(pairs.size(), " of ", run.model.node_count, " nodes have a mirror image");
+  const double rounding = 2.2e-16 * static_cast<double>(run.state.clock.step) * 0.04;
+  CHECK(below("places off the mirror (m)", uneven, rounding));
+  CHECK(below("energy error", ledger.energy_error(), 1e-3));
+  CHECK(below("penetration over element", run.state.largest_penetration, 0.05));
 }
 
 namespace {
