@@ -125,7 +125,8 @@ void find_touches(const Model& model, State& state, Workspace& work) {
   }
 }
 
-/// Sum of the shares |g| of all that moves in a touch, see Model::contact_allowance. `tilt` is its depth over its lever.
+/// Sum of the shares |g| of all that moves in a touch, see Model::contact_allowance. `tilt` is its depth over its
+/// lever.
 double sum_of_shares(const BodyTouch&, double tilt) { return 2 + 2 * tilt; }
 /// A corner of an obstacle moves by itself, but it may relieve a node. Its spring changes along the segment: |w'| d / L
 /// and |w''| (d / L)^2 / 2 come to w.
