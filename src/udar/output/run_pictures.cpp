@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "udar/output/frame_writer.hpp"
 #include "udar/output/observer.hpp"
@@ -26,6 +28,15 @@ Picture bodies_and_obstacles(const Model& model, const State& state, const std::
   }
   picture.obstacles = obstacle_outlines(model, state);
   return picture;
+}
+
+/// All but the largest hundredth are below: a handful of crushed elements would leave everything else in one colour.
+double largest_of_nearly_all(std::vector<double> values) {
+  std::erase_if(values, [](double v) { return std::isnan(v); });
+  if (values.empty()) return 0;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
 }
 
 }  // namespace
@@ -72,15 +83,12 @@ Picture state_picture(const Model& model, const State& state, const std::string&
   for (const Body& body : model.bodies) {
     for (Index e = body.element_begin; e < body.element_end; ++e) {
       const auto p = principal_stresses(state, e);
-      field.values.push_back(flowed ? state.plastic_strain[e] : 0.5e-6 * (p[0] - p[2]));
+      const double value = flowed ? state.plastic_strain[e] : 0.5e-6 * (p[0] - p[2]);
+      field.values.push_back(body.rigid ? std::numeric_limits<double>::quiet_NaN() : value);
     }
   }
-  // A handful of crushed elements would leave everything else in one colour.
-  std::vector<double> sorted = field.values;
-  const auto nearly_all = sorted.begin() + static_cast<std::ptrdiff_t>(0.99 * static_cast<double>(sorted.size() - 1));
-  std::nth_element(sorted.begin(), nearly_all, sorted.end());
   field.min = 0;
-  if (*nearly_all > 0) field.max = *nearly_all;
+  if (const double most = largest_of_nearly_all(field.values); most > 0) field.max = most;
   picture.field = std::move(field);
   return picture;
 }
