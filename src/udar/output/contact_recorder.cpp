@@ -17,9 +17,12 @@ double time_of_part(const std::vector<double>& time, const std::vector<Vec2>& im
   return time[k];
 }
 
-/// What presses a node in the coming half and the last half of a step, N s.
+/// Of a force, in the coming half and the last half of a step, N s.
+double impulse_of(Vec2 force, const Clock& clock) { return 0.5 * (clock.last_step + clock.next_step) * length(force); }
+
+/// What presses a node, N s.
 double normal_impulse(const SpringState& springs, const Clock& clock) {
-  return 0.5 * (clock.last_step + clock.next_step) * length(springs.normal_force + springs.damping_force);
+  return impulse_of(springs.normal_force + springs.damping_force, clock);
 }
 
 }  // namespace
@@ -61,6 +64,7 @@ void ContactRecorder::record(const State& state) {
     follow(obstacles_[o], state.obstacles[o], state);
     if (state.obstacles[o].touching > 0) press_obstacle(o, state);
   }
+  press_corners(state);
   auto partners = pairs_.begin();
   for (const PairBook& pair : state.pairs) {
     while (partners != pairs_.end() && bodies_of(*partners) < bodies_of(pair)) ++partners;
@@ -136,6 +140,21 @@ void ContactRecorder::press_obstacle(std::size_t obstacle, const State& state) {
     if (springs[c].touches == 0) continue;
     press(obstacles_[obstacle].touches.back(), model_.contact_bodies[c], place(state, model_.contact_nodes[c]),
           normal_impulse(springs[c], state.clock));
+  }
+}
+
+/// A corner presses where it stands. The end of the segment that it relieves has a spring of its own, which is
+/// entered whole: what is taken off again counts against it, in the place of that end.
+void ContactRecorder::press_corners(const State& state) {
+  for (const CornerTouch& corner : state.corner_touches) {
+    const std::uint32_t number = model_.corner_of(corner.point).obstacle;
+    Touch& touch = obstacles_[number].touches.back();
+    const Vec2 where =
+        model_.corner_of(corner.point).place + state.clock.time.value() * model_.obstacles[number].velocity;
+    press(touch, corner.body, where, normal_impulse(corner.springs, state.clock));
+    if (corner.relieves == 0) continue;
+    const Vec2 end = place(state, model_.contact_nodes[corner.relieved]);
+    press(touch, corner.body, end, -impulse_of(corner.relief, state.clock));
   }
 }
 

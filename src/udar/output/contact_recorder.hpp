@@ -36,7 +36,7 @@ class ContactRecorder {
     bool touches = false;  ///< in the step looked at last
     Motion before;         ///< when it first touched
     Motion after;          ///< when it last did
-    double pressed = 0;    ///< N s, sum of the sizes of the normal impulses on its nodes
+    double pressed = 0;    ///< N s, sum of the sizes of the normal impulses on it
     Vec2 arm{};            ///< N s m, sum of the same times the way from its centre of mass
   };
   /// An interval with force.
@@ -71,6 +71,7 @@ class ContactRecorder {
   void begin_touch(Partners& partners, double time);
   void press(Touch& touch, Index body, Vec2 place, double impulse);
   void press_obstacle(std::size_t obstacle, const State& state);
+  void press_corners(const State& state);
   void press_bodies(const State& state);
   Toucher& toucher(Touch& touch, Index body) const;
   void draw(Curve& curve, const Touch& touch, std::uint64_t step) const;

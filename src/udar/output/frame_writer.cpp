@@ -78,7 +78,7 @@ struct NodeTouch {
   std::int32_t partner = -1;  ///< body, or number of bodies + obstacle
 };
 
-/// Touches of the contact nodes, with all obstacles and bodies.
+/// Touches of the contact nodes, with all obstacles, their corners, and bodies.
 std::vector<NodeTouch> node_touches(const Model& model, const State& state) {
   std::vector<NodeTouch> touches(model.contact_nodes.size());
   const auto enter = [&](std::size_t point, const SpringState& springs, bool rubs, std::size_t partner) {
@@ -100,6 +100,16 @@ std::vector<NodeTouch> node_touches(const Model& model, const State& state) {
     for_each_force(model.segments, t,
                    [&](std::uint32_t point, const TouchForces& f) { touches[point].force += f.total(); });
     enter(t.point, t.springs, t.lever > 0 && model.body_pair(t.point, t.body).friction > 0, t.body);
+  }
+  for (const CornerTouch& t : state.corner_touches) {
+    const bool rubs = t.lever > 0 && model.obstacle_of(t.point).friction > 0;
+    SpringState of_end = t.springs;  // seen from the ends of the segment that the corner is in
+    of_end.normal = -t.springs.normal;
+    for_each_force(model.segments, t, [&](std::uint32_t point, const TouchForces& f) {
+      touches[point].force += f.total();
+      if (f.normal == Vec2{}) return;
+      enter(point, of_end, rubs, model.bodies.size() + model.corner_of(t.point).obstacle);
+    });
   }
   return touches;
 }
