@@ -58,4 +58,18 @@ TEST_CASE("a rigid body is a body; what it cannot have is refused") {
   }
 }
 
+TEST_CASE("a body cannot be tied to itself; two bodies can") {
+  const std::string pair =
+      std::string(hammer) + "[[contact.pairs]]\nbody = \"beam\"\nother = \"hammer\"\ntouch = \"tied\"\n";
+  CHECK(complaints_of_beam_and(pair).empty());
+  const std::string text =
+      complaints_of_beam_and("[[contact.pairs]]\nbody = \"beam\"\nother = \"beam\"\ntouch = \"tied\"\n");
+  CAPTURE(text);
+  for (const char* part : {"a body cannot be tied to itself", "bad.toml:32:9", "its mesh holds it together already",
+                           "name two bodies, or leave the pair out"}) {
+    CAPTURE(part);
+    CHECK(text.find(part) != std::string::npos);
+  }
+}
+
 }  // namespace udar

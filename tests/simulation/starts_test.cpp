@@ -2,9 +2,13 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "tests/results/scratch.hpp"
 #include "tests/simulation/example.hpp"
+#include "udar/case/build_model.hpp"
 #include "udar/simulation/simulation.hpp"
+#include "udar/step/step.hpp"
 
 namespace udar {
 namespace {
@@ -18,6 +22,25 @@ std::string refusal_of(const Case& input) {
     return error.what();
   }
   return "";
+}
+
+/// The mesh of a block cut open along the line y = `height` from its left end to x = `tip`; both lips lie on the line.
+Mesh slit_mesh(const RectangleMesh& shape, double height, double tip) {
+  Mesh mesh = generate(shape);
+  mesh.sides.clear();
+  std::vector<Index> upper(mesh.nodes.size());
+  for (Index i = 0; i < upper.size(); ++i) {
+    upper[i] = i;
+    if (std::fabs(mesh.nodes[i].y - height) > 1e-9 || mesh.nodes[i].x > tip - 1e-9) continue;
+    upper[i] = static_cast<Index>(mesh.nodes.size());
+    mesh.nodes.push_back(mesh.nodes[i]);
+    mesh.node_numbers.push_back(upper[i]);
+  }
+  for (auto& t : mesh.triangles) {
+    if (mesh.nodes[t[0]].y + mesh.nodes[t[1]].y + mesh.nodes[t[2]].y < 3 * height) continue;
+    for (Index& corner : t) corner = upper[corner];
+  }
+  return mesh;
 }
 
 }  // namespace
@@ -50,6 +73,33 @@ TEST_CASE("a node observer far from the body is refused, one beside it is not") 
   CHECK(refusal_of(input).empty());
   input.observed_nodes[0].at = {10, 0};
   CHECK(contains(refusal_of(input), "has no node near (10, 0) m"));
+}
+
+TEST_CASE("a slit of no width is refused with its place, unless the body is not to touch itself") {
+  Case input = falling_block();
+  input.run.end_time = 20e-6;
+  const Mesh mesh = slit_mesh(std::get<RectangleMesh>(input.bodies[0].mesh), 0.01, 0);
+  const auto run = [&] {
+    const Model model = build_model(input, {mesh});
+    Workspace work(model, 1);
+    State state = start(model, work);
+    while (!finished(model, state)) step(model, state, work);
+    return state;
+  };
+  try {
+    run();
+    FAIL("not refused");
+  } catch (const UserError& error) {
+    CHECK(error.code == ExitCode::bad_case);
+    const std::string told = error.what();
+    CHECK(contains(told, "body `block` touches itself at (-0.0"));
+    CHECK(contains(told, ", 0.01) m: its boundary lies on itself there, a gap of no width"));
+    CHECK(contains(told, "open the gap, or join its two sides"));
+  }
+  input.contact_pairs = {{.body = "block", .other = "block", .touch = ContactPairCase::Touch::no}};
+  const State state = run();
+  CHECK(state.touches.empty());
+  CHECK(state.ledger.identity_error() < 1e-11);
 }
 
 }  // namespace udar

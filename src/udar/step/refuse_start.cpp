@@ -57,6 +57,7 @@ void refuse_overlapping_bodies(const Model& model) {
     for (std::uint32_t other = 0; other < model.bodies.size(); ++other) {
       if (!boxes[other].holds(place)) continue;
       if (other == model.contact_bodies[c] || !model.body_pair(c, other).touch) continue;
+      if (model.is_tied(c, other)) continue;  // its springs rest where it is
       const double depth = depth_in(model, place, other).depth;
       if (depth <= deepest_start * model.contact_node_sizes[c]) continue;
       throw UserError(
