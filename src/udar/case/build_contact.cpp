@@ -67,8 +67,8 @@ void add_segments(Model& model, Index body, const std::vector<double>& softness)
 
 /// What the bound on an element's frequency^2 leaves room for at each contact node: a spring of its own, and those of
 /// other bodies' nodes on its two segments. Counted whether they touch or not, since a step that jumps with every touch
-/// costs energy; a single body may fold and touch itself, but seldom does: nothing for that. What more comes to touch
-/// is added when it does.
+/// costs energy; a single body may fold and touch itself, and tied bodies may touch beside their ties, but seldom do:
+/// nothing for that. What more comes to touch is added when it does.
 void allow_for_touches(Model& model) {
   model.contact_allowance.assign(model.contact_nodes.size(), 0);
   const std::size_t n = model.bodies.size();
@@ -83,7 +83,7 @@ void allow_for_touches(Model& model) {
     double most = 0;
     for (std::size_t other = 0; other < n; ++other) {
       const BodyPair& pair = model.body_pair(static_cast<std::uint32_t>(c), static_cast<Index>(other));
-      if (other == model.contact_bodies[c] || !pair.touch) continue;
+      if (other == model.contact_bodies[c] || !pair.touch || pair.tied) continue;
       const double size = model.contact_node_sizes[c];
       const double automatic = 0.5 * model.contact_stiffness[c];  // at most, see touch_stiffness
       const double own = pair.stiffness.value_or(automatic);
