@@ -245,6 +245,24 @@ TEST_CASE("the same bits for any number of threads, with ties") {
   for (const int threads : {2, 3, 7}) CHECK(hash(threads) == expected);
 }
 
+TEST_CASE("all ties of a side together are as stiff as one row of the elements beside it, ends and all") {
+  Case input = tied_blocks();
+  const Elastic law{.young_modulus = 196e9, .poisson_ratio = 0.25};
+  input.materials[0].law = law;
+  input.bodies[1].material = "steel";
+  auto& mesh = std::get<RectangleMesh>(input.bodies[1].mesh);
+  mesh = {.size = {0.04, 0.015}, .at = {-0.02, 0.02}};
+  for (const double size : {0.004, 0.002, 0.0015}) {
+    CAPTURE(size);
+    mesh.element_size = size;
+    const Model model = build_model(input);
+    double sum = 0;
+    for (const Tie& tie : model.ties) sum += tie.stiffness;
+    // Elements of the lower block are 4 mm high over that side, the coarser and so the softer ones.
+    CHECK(sum == doctest::Approx(law.elasticity().wave_modulus() * 0.01 * 0.04 / 0.004).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("a stiffness that is given is that of the ties") {
   Case input = tied_blocks();
   input.contact_pairs[0].stiffness = 3e8;

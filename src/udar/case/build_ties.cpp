@@ -37,8 +37,7 @@ class TwoBoundaries {
       const Foot foot = foot_on(model_.segments, s, p, where);
       smallest_ = std::min(smallest_, std::fabs(foot.distance));
       if (std::fabs(foot.distance) >= std::fabs(nearest.distance)) continue;
-      const Vec2 along = place(model_.segments[s].b) - place(model_.segments[s].a);
-      if (dot(unit(outward(along), {}), normal) < facing) nearest = foot;
+      if (dot(unit(edge_normal(s), {}), normal) < facing) nearest = foot;
     }
     if (!std::isfinite(nearest.distance)) return {};
     const Segment& s = model_.segments[nearest.segment];
@@ -50,11 +49,30 @@ class TwoBoundaries {
             .segment = nearest.segment,
             .along = dot(p - a, along) / dot(along, along),
             .gap = dot(outward(along), p - a) / length(along),
-            .stiffness = model_.touch_stiffness(point, nearest.segment, nearest.along).normal};
+            .stiffness = stiffness(point, nearest)};
   }
   [[nodiscard]] double smallest() const { return smallest_; }
 
  private:
+  /// That of a touch, N/m; an automatic one of the edges that face the other body alone: at the end of a tied side the
+  /// point has another edge, round its corner.
+  [[nodiscard]] double stiffness(std::uint32_t point, const Foot& foot) const {
+    const double all = model_.touch_stiffness(point, foot.segment, foot.along).normal;
+    if (model_.body_pair(point, model_.segments[foot.segment].body).stiffness) return all;
+    const std::uint32_t from = model_.segment_from[point];
+    const Vec2 across = unit(edge_normal(foot.segment), {});
+    double facing_edges = 0;  // m, half of them
+    for (const std::uint32_t own : {model_.segments[from].before, from}) {
+      const Vec2 out = edge_normal(own);
+      if (dot(unit(out, {}), across) < facing) facing_edges += 0.5 * length(out);
+    }
+    // A point with a corner for a normal may have no edge that faces the other one enough.
+    return facing_edges > 0 ? all * facing_edges / model_.contact_node_sizes[point] : all;
+  }
+  [[nodiscard]] Vec2 edge_normal(std::uint32_t segment) const {
+    const Segment& s = model_.segments[segment];
+    return outward(place(s.b) - place(s.a));
+  }
   [[nodiscard]] Vec2 place(std::uint32_t point) const { return model_.rest[model_.contact_nodes[point]]; }
 
   const Model& model_;
