@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <span>
 
 #include "udar/app/commands.hpp"
 #include "udar/app/terminal.hpp"
@@ -33,9 +34,12 @@ double memory_so_far() {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
+/// Of a heap of bodies a screen shows the first ones.
+constexpr std::size_t most_bodies = 20;
+
 void print_bodies(const Model& model) {
   const char* label = "bodies";
-  for (const Body& body : model.bodies) {
+  for (const Body& body : std::span(model.bodies).first(std::min(most_bodies, model.bodies.size()))) {
     const Elasticity c = std::visit([](const auto& law) { return law.elasticity(); }, body.law);
     const char* law = std::visit([](const auto& l) { return std::decay_t<decltype(l)>::keyword; }, body.law);
     row(label, body.name,
@@ -46,7 +50,11 @@ void print_bodies(const Model& model) {
                     std::sqrt(c.wave_modulus() / body.density), std::sqrt(c.shear_modulus / body.density)));
     label = "";
   }
+  if (model.bodies.size() > most_bodies) {
+    row("", "", fmt::format("and {} more", model.bodies.size() - most_bodies));
+  }
   for (const RigidBody& rigid : model.rigid_bodies) {
+    if (rigid.body >= most_bodies) break;
     row("", model.bodies[rigid.body].name,
         fmt::format("rigid, inertia {:.6g} kg m^2 about its centre of mass at ({:.5g}, {:.5g}) m", rigid.inertia,
                     rigid.centre.x, rigid.centre.y));
