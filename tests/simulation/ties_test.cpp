@@ -148,7 +148,9 @@ TEST_CASE("ties lose no energy: the error falls with the square of the step") {
 
 TEST_CASE("the stable limit holds with ties: ten thousand steps of noise") {
   // Equal meshes and one five times as fine; a corner tied to two others; ties far stiffer than the elements.
-  for (const auto& [fine, stiffness] : {std::pair{0.004, 0.0}, {0.0008, 0.0}, {0.004, 2e10}, {0.0008, 2e10}}) {
+  for (const auto& given : {std::pair{0.004, 0.0}, {0.0008, 0.0}, {0.004, 2e10}, {0.0008, 2e10}}) {
+    const double fine = given.first;
+    const double stiffness = given.second;
     CAPTURE(fine);
     CAPTURE(stiffness);
     Case input = tied_blocks();
@@ -214,7 +216,9 @@ TEST_CASE("what is tied does not touch, what is not does") {
 }
 
 TEST_CASE("a disc in a hole whose mesh has other chords of the same circle") {
-  for (const auto& [disc, ring] : {std::pair{0.0006, 0.006}, {0.006, 0.0006}}) {
+  for (const auto& sizes : {std::pair{0.0006, 0.006}, {0.006, 0.0006}}) {
+    const double disc = sizes.first;
+    const double ring = sizes.second;
     CAPTURE(disc);
     Case input = tied_blocks();
     input.bodies[0].mesh = DiscMesh{.radius = 0.01, .element_size = disc};

@@ -129,7 +129,9 @@ TEST_CASE("tied-bars: equal meshes, node on node: a layer as soft as one row of 
 }
 
 TEST_CASE("tied-bars: coarse to fine and fine to coarse, nodes not on nodes") {
-  for (const auto& [left, right] : {std::pair{0.05, 0.02}, {0.02, 0.05}, {0.05, 0.03}}) {
+  for (const auto& cells : {std::pair{0.05, 0.02}, {0.02, 0.05}, {0.05, 0.03}}) {
+    const double left = cells.first;
+    const double right = cells.second;
     CAPTURE(left);
     CAPTURE(right);
     const Passage p = pass(left, right);
