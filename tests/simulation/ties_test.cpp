@@ -131,6 +131,33 @@ TEST_CASE("tied blocks that spin and are struck: momentum and spin stay, the boo
   }
 }
 
+TEST_CASE("a rigid body tied to one that deforms: momentum and spin stay, and it swings with it") {
+  Case input = thrown_blocks(400);
+  input.materials[0].law = elastic;
+  input.bodies[1].rigid = true;
+  input.bodies[1].velocity += Vec2{0, -3};
+  input.run.end_time = 1e-3;
+  const Model model = build_model(input);
+  Workspace work(model, 1);
+  State state = start(model, work);
+  const double size = totals(model, state).size;
+  const auto momentum = [&] { return state.body_momentum[0] + state.body_momentum[1]; };
+  const auto spin = [&] { return state.body_spin[0] + state.body_spin[1]; };
+  const Vec2 start_momentum = momentum();
+  const double start_spin = spin();
+  double momentum_drift = 0;
+  double spin_drift = 0;
+  while (!finished(model, state)) {
+    step(model, state, work);
+    momentum_drift = std::max(momentum_drift, length(momentum() - start_momentum));
+    spin_drift = std::max(spin_drift, std::fabs(spin() - start_spin));
+  }
+  CHECK(momentum_drift < 1e-12 * size);
+  CHECK(spin_drift < 1e-12 * size * 0.04);
+  CHECK(largest_stretch(model, state) < 0.02 * 0.003);
+  CHECK(state.ledger.energy_error() < 1e-3);
+}
+
 TEST_CASE("ties lose no energy: the error falls with the square of the step") {
   const auto error = [](double safety) {
     Case input = thrown_blocks(4000);
