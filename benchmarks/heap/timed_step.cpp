@@ -50,6 +50,7 @@ void timed_step(const Model& model, State& state, Workspace& work, StageTimes& t
     const Timer bodies(times.touch_bodies);
     touch_bodies(model, state, work);
   }
+  move_rigid_bodies(model, state, work);
   if (work.pool.threads() == 1) {
     timed_sweep(model, state, work, times.contact_forces);
   } else {
