@@ -60,8 +60,8 @@ struct LaneSums {
   }
   [[nodiscard]] double largest_stretch() const {
     double squared = 0;
-    for (Index p = 0; p < packs; ++p) {
-      for (Index l = 0; l < Pack::lanes; ++l) squared = larger(squared, stretch[p].v[l]);
+    for (const Pack& pack : stretch) {
+      for (Index l = 0; l < Pack::lanes; ++l) squared = larger(squared, pack.v[l]);
     }
     return __builtin_sqrt(squared);
   }
