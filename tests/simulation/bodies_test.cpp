@@ -33,24 +33,6 @@ Case two_blocks(const Law& law, double friction) {
                      block("upper", {0.005, 0.0201}, {0.03, 0.01}, 0.002, {-15, -40})}};
 }
 
-struct Totals {
-  Vec2 momentum{};
-  double spin = 0;
-  double size = 0;  ///< sum of |m x cross v|, of |m v|
-};
-
-Totals totals(const Model& model, const State& state) {
-  Totals t;
-  for (Index i = 0; i < model.node_count; ++i) {
-    const NodeRecord& r = state.nodes[i];
-    const Vec2 p = model.mass[i] * Vec2{r.vx, r.vy};
-    t.momentum += p;
-    t.spin += cross(Vec2{r.x, r.y}, p);
-    t.size += length(p);
-  }
-  return t;
-}
-
 }  // namespace
 
 TEST_CASE("two bodies strike, rub and part: momentum and spin stay, the books close") {

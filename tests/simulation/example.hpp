@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "udar/case/case.hpp"
+#include "udar/model/model.hpp"
 #include "udar/model/state.hpp"
 
 namespace udar {
@@ -81,6 +82,25 @@ static_assert(sizeof(DeepestTouch) ==
 static_assert(sizeof(PairBook) == 2 * sizeof(Index) + sizeof(ContactBook));
 static_assert(sizeof(Ledger) ==
               force_kinds * sizeof(ForceBook) + 6 * sizeof(CompensatedSum) + 13 * sizeof(double) + 3 * sizeof(Vec2));
+
+/// Momentum and spin of all bodies, with the velocity of the coming step.
+struct Totals {
+  Vec2 momentum{};  ///< kg m/s
+  double spin = 0;  ///< kg m2/s
+  double size = 0;  ///< kg m/s, sum of |m v|
+};
+
+inline Totals totals(const Model& model, const State& state) {
+  Totals t;
+  for (Index i = 0; i < model.node_count; ++i) {
+    const NodeRecord& r = state.nodes[i];
+    const Vec2 p = model.mass[i] * Vec2{r.vx, r.vy};
+    t.momentum += p;
+    t.spin += cross(Vec2{r.x, r.y}, p);
+    t.size += length(p);
+  }
+  return t;
+}
 
 /// Hash of every bit of a state (FNV-1a), in the order of `for_each_field`.
 inline std::uint64_t hash_of(const State& state) {

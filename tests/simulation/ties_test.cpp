@@ -56,24 +56,6 @@ Case struck_blocks() {
   return input;
 }
 
-struct Totals {
-  Vec2 momentum{};
-  double spin = 0;
-  double size = 0;  ///< kg m/s, sum of |m v|
-};
-
-Totals totals(const Model& model, const State& state) {
-  Totals t;
-  for (Index i = 0; i < model.node_count; ++i) {
-    const NodeRecord& r = state.nodes[i];
-    const Vec2 p = model.mass[i] * Vec2{r.vx, r.vy};
-    t.momentum += p;
-    t.spin += cross(Vec2{r.x, r.y}, p);
-    t.size += length(p);
-  }
-  return t;
-}
-
 double largest_stretch(const Model& model, const State& state) {
   const auto at = [&](std::uint32_t point) { return place(state, model.contact_nodes[point]); };
   double most = 0;

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-
 #include "udar/contact/foot.hpp"
 
 namespace udar {

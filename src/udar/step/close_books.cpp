@@ -55,16 +55,23 @@ class Booking {
   double after_ = 0;
 };
 
+/// All forces of contact by kind.
+struct ContactAccounts {
+  Account normal, friction, damping;
+
+  void add(const TouchForces& forces, Vec2 before, Vec2 after) {
+    normal.add(forces.normal, before, after);
+    friction.add(forces.friction, before, after);
+    damping.add(forces.damping, before, after);
+  }
+};
+
 /// Forces between bodies, in the books of their pairs and in those of all contact.
-void enter_touches(const Model& model, State& state, Workspace& work, const Booking& booking, Account& normal,
-                   Account& friction, Account& damping) {
+void enter_touches(const Model& model, State& state, Workspace& work, const Booking& booking, ContactAccounts& all) {
   for (const BodyTouch& touch : state.touches) {
     for_each_force(model.segments, touch, [&](std::uint32_t point, const TouchForces& forces) {
-      const Vec2 before = booking.before(model.contact_nodes[point]);
-      const Vec2 after = booking.after(model.contact_nodes[point]);
-      normal.add(forces.normal, before, after);
-      friction.add(forces.friction, before, after);
-      damping.add(forces.damping, before, after);
+      const Index node = model.contact_nodes[point];
+      all.add(forces, booking.before(node), booking.after(node));
     });
   }
   sum_pair_forces(model, state, work.bodies);
@@ -83,18 +90,15 @@ void enter_touches(const Model& model, State& state, Workspace& work, const Book
 
 /// Forces of obstacles' corners on bodies, in the books of all contact; `total` and `pressing` are those of each
 /// obstacle.
-void enter_corners(const Model& model, const State& state, const Booking& booking, Account& normal, Account& friction,
-                   Account& damping, std::vector<PairForces>& obstacles) {
+void enter_corners(const Model& model, const State& state, const Booking& booking, ContactAccounts& all,
+                   std::vector<PairForces>& obstacles) {
   std::fill(obstacles.begin(), obstacles.end(), PairForces{});
   for (const CornerTouch& touch : state.corner_touches) {
     PairForces& of_obstacle = obstacles[model.corner_of(touch.point).obstacle];
-    ++of_obstacle.touching;
     for_each_force(model.segments, touch, [&](std::uint32_t point, const TouchForces& forces) {
       const Vec2 before = booking.before(model.contact_nodes[point]);
       const Vec2 after = booking.after(model.contact_nodes[point]);
-      normal.add(forces.normal, before, after);
-      friction.add(forces.friction, before, after);
-      damping.add(forces.damping, before, after);
+      all.add(forces, before, after);
       of_obstacle.pressing.add(forces.normal + forces.damping, before, after);
       of_obstacle.total.add(forces.total(), before, after);
     });
@@ -118,11 +122,12 @@ Account sum_ties(const Model& model, const BodyContact& contact, const Booking& 
 
 /// Contact forces, obstacle by obstacle and touch by touch; returns the account of the moving obstacles' own work.
 Account enter_contacts(const Model& model, State& state, Workspace& work, const Booking& booking) {
-  Account normal, friction, damping, obstacle_work;
+  ContactAccounts all;
+  Account obstacle_work;
   const std::size_t count = model.contact_nodes.size();
   const std::size_t blocks = model.node_blocks.size();
   std::vector<PairForces>& corners = work.bodies.corner_forces;
-  enter_corners(model, state, booking, normal, friction, damping, corners);
+  enter_corners(model, state, booking, all, corners);
   for (std::size_t o = 0; o < model.obstacles.size(); ++o) {
     const Vec2 velocity = model.obstacles[o].velocity;
     Account total = corners[o].total;
@@ -134,9 +139,7 @@ Account enter_contacts(const Model& model, State& state, Workspace& work, const 
         if (springs.touches == 0) continue;
         const Vec2 before = booking.before(model.contact_nodes[c]);
         const Vec2 after = booking.after(model.contact_nodes[c]);
-        normal.add(springs.normal_force, before, after);
-        friction.add(springs.friction_force, before, after);
-        damping.add(springs.damping_force, before, after);
+        all.add({springs.normal_force, springs.friction_force, springs.damping_force}, before, after);
         const Vec2 pressing_force = springs.normal_force + springs.damping_force;
         pressing.add(pressing_force, before, after);
         total.add(pressing_force + springs.friction_force, before, after);
@@ -146,10 +149,10 @@ Account enter_contacts(const Model& model, State& state, Workspace& work, const 
     booking.enter(pressing, state.obstacles[o].normal);
     obstacle_work.add(total.force, velocity, velocity);
   }
-  enter_touches(model, state, work, booking, normal, friction, damping);
-  booking.enter(normal, state.ledger.book(ForceKind::contact));
-  booking.enter(friction, state.ledger.book(ForceKind::friction));
-  booking.enter(damping, state.ledger.book(ForceKind::contact_damping));
+  enter_touches(model, state, work, booking, all);
+  booking.enter(all.normal, state.ledger.book(ForceKind::contact));
+  booking.enter(all.friction, state.ledger.book(ForceKind::friction));
+  booking.enter(all.damping, state.ledger.book(ForceKind::contact_damping));
   booking.enter(sum_ties(model, work.bodies, booking), state.ledger.book(ForceKind::tie));
   return obstacle_work;
 }
