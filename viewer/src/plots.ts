@@ -1,0 +1,210 @@
+// Histories as curves over time, with the line of the time that is shown and the largest, present and smallest value.
+import uPlot from "uplot";
+import type { Blocks } from "./blocks.ts";
+import { curves } from "./colours.ts";
+import { h } from "./html.ts";
+import type { History, Run } from "./run.ts";
+import type { Shown, Store } from "./store.ts";
+import { digits, type Units } from "./units.ts";
+
+/** A curve: values in SI. */
+export interface Curve {
+  name: string;
+  values: Float32Array;
+}
+
+/** Curves of one unit over the same times. */
+export interface PlotData {
+  title: string;
+  unit: string; // SI
+  times: Float32Array; // s
+  curves: Curve[];
+}
+
+const readable = (name: string): string => name.replace(/_/g, " ");
+
+const title_of = (history: History, group: string): string =>
+  history.name === group ? group : `${history.name}: ${group}`;
+
+/** Columns that belong in one plot: those of one unit whose names differ only in their end (x and y, 1, 2 and 3), and
+ *  all terms of the energy. */
+export function groups_of(history: History): { title: string; unit: string; columns: number[] }[] {
+  const groups: { title: string; unit: string; columns: number[] }[] = [];
+  history.columns.forEach(({ name, unit }, k) => {
+    if (k === 0) return;
+    const title = history.name === "energy" ? "energy" : readable(name.replace(/_(x|y|xy|z|[123])$/, ""));
+    const known = groups.find((g) => g.title === title && g.unit === unit);
+    if (known) known.columns.push(k);
+    else groups.push({ title, unit, columns: [k] });
+  });
+  return groups;
+}
+
+/** The value of a curve at a time, between its rows on the line through them. */
+export function at_time(times: Float32Array, values: Float32Array, time: number): number {
+  let low = 0;
+  let high = times.length - 1;
+  if (high < 0) return NaN;
+  if (time <= times[low]) return values[low];
+  if (time >= times[high]) return values[high];
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (times[middle] <= time) low = middle;
+    else high = middle;
+  }
+  const part = (time - times[low]) / (times[high] - times[low]);
+  return part === 0 ? values[low] : values[low] + part * (values[high] - values[low]);
+}
+
+export class Plots {
+  readonly #drawn = new Set<{ plot: uPlot; update: () => void; element: HTMLElement }>();
+  readonly #seen = new IntersectionObserver((entries) => {
+    for (const entry of entries) {
+      if (!entry.isIntersecting) continue;
+      this.#seen.unobserve(entry.target);
+      this.#makers.get(entry.target)?.();
+      this.#makers.delete(entry.target);
+    }
+  }, { rootMargin: "300px" });
+  readonly #makers = new Map<Element, () => void>();
+
+  constructor(
+    private readonly run: Run,
+    private readonly blocks: Blocks,
+    private readonly store: Store<Shown>,
+    private readonly units: Units,
+    private readonly go: (time: number) => void,
+  ) {
+    store.on(["frame"], () => this.#each(({ update }) => update()));
+    new ResizeObserver(() => this.#each(({ plot, element }) => this.#fit(plot, element))).observe(document.body);
+  }
+
+  get time(): number {
+    return this.run.times[this.store.now.frame] ?? 0;
+  }
+
+  #each(what: (drawn: { plot: uPlot; update: () => void; element: HTMLElement }) => void): void {
+    for (const drawn of this.#drawn) {
+      if (drawn.element.isConnected) what(drawn);
+      else {
+        drawn.plot.destroy();
+        this.#drawn.delete(drawn);
+      }
+    }
+  }
+
+  #fit(plot: uPlot, element: HTMLElement): void {
+    const width = element.clientWidth;
+    if (width > 0 && width !== plot.width) plot.setSize({ width, height: 170 });
+  }
+
+  /** All plots of a history; each is made when it comes into sight. */
+  of_history(history: History): HTMLElement {
+    const box = h("div", { class: "plots" });
+    let values: Promise<Float32Array> | null = null;
+    for (const group of groups_of(history)) {
+      const place = h("figure", { class: "plot", "data-plot": `${history.name}.${group.title}` },
+        h("figcaption", {}, title_of(history, group.title)));
+      box.append(place);
+      this.#makers.set(place, () => {
+        values ??= this.blocks.values(history.values);
+        void values.then((all) => {
+          const row = (k: number): Float32Array =>
+            all.subarray(k * history.values.columns, (k + 1) * history.values.columns);
+          this.draw(place, {
+            title: title_of(history, group.title),
+            unit: group.unit,
+            times: row(0),
+            curves: group.columns.map((k) => ({ name: readable(history.columns[k].name), values: row(k) })),
+          });
+        });
+      });
+      this.#seen.observe(place);
+    }
+    return box;
+  }
+
+  /** Fills `place` with a plot. */
+  draw(place: HTMLElement, all: PlotData): void {
+    // Of many terms those that are nothing all the time only take room.
+    const is_something = ({ values }: Curve): boolean => values.some((v) => v !== 0);
+    const quiet = all.curves.length > 4 ? all.curves.filter((curve) => !is_something(curve)) : [];
+    const data = { ...all, curves: all.curves.filter((curve) => !quiet.includes(curve)) };
+    const most = data.curves.reduce((sofar, { values }) => values.reduce((m, v) => Math.max(m, Math.abs(v) || 0), sofar), 0);
+    const unit = this.units.for(data.unit, most);
+    const time_unit = this.units.for("s", this.run.summary?.end_time ?? data.times[data.times.length - 1] ?? 0);
+    const scaled = (values: Float32Array, size: number): Float64Array => Float64Array.from(values, (v) => v / size);
+    const figures = h("tbody");
+    const heads = ["", "maximum", "now", "minimum"].map((head) => h("th", { scope: "col" }, head));
+    const cells = data.curves.map((curve, k) => {
+      const [high, now, low] = [h("td"), h("td", { class: "now" }), h("td")];
+      const known = curve.values.filter((v) => Number.isFinite(v));
+      high.textContent = digits(known.reduce((a, b) => Math.max(a, b), -Infinity) / unit.size);
+      low.textContent = digits(known.reduce((a, b) => Math.min(a, b), Infinity) / unit.size);
+      const dot = h("span", { class: "dot" });
+      dot.style.background = curves[k % curves.length];
+      figures.append(h("tr", {}, h("th", { scope: "row" }, dot, curve.name), high, now, low));
+      return now;
+    });
+    const element = h("div", { class: "curves", role: "img", "aria-label": `${data.title} over time` });
+    place.replaceChildren(
+      h("figcaption", {}, `${data.title}${unit.name ? `, ${unit.name}` : ""}`),
+      element,
+      h("table", { class: "figures" }, h("thead", {}, h("tr", {}, ...heads)), figures),
+      quiet.length > 0 ? h("p", { class: "left-out" }, `0 all the time: ${quiet.map((c) => c.name).join(", ")}`) : "",
+    );
+    const ink = (): string => getComputedStyle(document.body).getPropertyValue("--ink");
+    const line = (): string => getComputedStyle(document.body).getPropertyValue("--line");
+    const axis = (): uPlot.Axis => ({
+      stroke: ink, grid: { stroke: line, width: 1 }, ticks: { stroke: line, width: 1, size: 4 },
+      font: "11px system-ui, sans-serif", values: (_, ticks) => ticks.map((v) => digits(v)),
+    });
+    const plot = new uPlot(
+      {
+        width: element.clientWidth || 400,
+        height: 170,
+        legend: { show: false },
+        cursor: { points: { show: false }, drag: { x: true, y: false } },
+        scales: { x: { time: false } },
+        axes: [{ ...axis(), size: 26 }, { ...axis(), size: 58 }],
+        series: [{}, ...data.curves.map((_, k) => ({ stroke: curves[k % curves.length], width: 1.5, spanGaps: false }))],
+        hooks: { draw: [(self) => this.#mark_time(self, this.time / time_unit.size)] },
+      },
+      [scaled(data.times, time_unit.size), ...data.curves.map((c) => scaled(c.values, unit.size))],
+      element,
+    );
+    element.append(h("span", { class: "axis-unit" }, time_unit.name));
+    element.addEventListener("click", (event) => {
+      const left = event.clientX - plot.over.getBoundingClientRect().left;
+      this.go(plot.posToVal(left, "x") * time_unit.size);
+    });
+    const update = (): void => {
+      cells.forEach((cell, k) => {
+        cell.textContent = digits(at_time(data.times, data.curves[k].values, this.time) / unit.size);
+      });
+      plot.redraw(false);
+    };
+    update();
+    this.#drawn.add({ plot, update, element });
+  }
+
+  #mark_time(plot: uPlot, time: number): void {
+    const x = Math.round(plot.valToPos(time, "x", true));
+    const { ctx } = plot;
+    const { left, top, width, height } = plot.bbox;
+    if (x < left || x > left + width) return;
+    ctx.save();
+    ctx.strokeStyle = getComputedStyle(document.body).getPropertyValue("--accent");
+    ctx.lineWidth = 1.5 * devicePixelRatio;
+    ctx.beginPath();
+    ctx.moveTo(x, top);
+    ctx.lineTo(x, top + height);
+    ctx.stroke();
+    ctx.restore();
+  }
+
+  /** Draws all again, for other units or colours. */
+  redraw(): void {
+    this.#each(({ plot }) => plot.redraw(false));
+  }
+}
