@@ -105,12 +105,13 @@ export function look_bar(
   };
   return h("div", { class: "look" },
     h("div", { class: "bar" }, field.label, range.label,
-      h("span", { class: "range" }, low, " to ", high, unit_name), map.label),
+      h("span", { class: "range" }, low, " to ", high, unit_name)),
     h("div", { class: "bar" },
       flag("mesh", "mesh", "Edges of the elements (m)"), flag("outline", "outline", "Boundary of the bodies (o)"),
       flag("ghost", "undeformed", "Where the bodies were at first (u)"),
       flag("smooth", "smoothed", "Means at the nodes instead of a value for each element (s)"),
-      frames.run.forces ? flag("forces", "contact forces", "Contact forces as arrows (c)") : null, unit_choice));
+      frames.run.forces ? flag("forces", "contact forces", "Contact forces as arrows (c)") : null),
+    h("div", { class: "bar" }, map.label, unit_choice));
 }
 
 /** View: fit, zoom, follow; pictures and films. */

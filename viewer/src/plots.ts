@@ -134,13 +134,15 @@ export class Plots {
     const unit = this.units.for(data.unit, most);
     const time_unit = this.units.for("s", this.run.summary?.end_time ?? data.times[data.times.length - 1] ?? 0);
     const scaled = (values: Float32Array, size: number): Float64Array => Float64Array.from(values, (v) => v / size);
+    // Rounding errors of what is 0 would only confuse.
+    const say = (value: number): string => digits(Math.abs(value) < 1e-9 * most ? 0 : value / unit.size);
     const figures = h("tbody");
     const heads = ["", "maximum", "now", "minimum"].map((head) => h("th", { scope: "col" }, head));
     const cells = data.curves.map((curve, k) => {
       const [high, now, low] = [h("td"), h("td", { class: "now" }), h("td")];
       const known = curve.values.filter((v) => Number.isFinite(v));
-      high.textContent = digits(known.reduce((a, b) => Math.max(a, b), -Infinity) / unit.size);
-      low.textContent = digits(known.reduce((a, b) => Math.min(a, b), Infinity) / unit.size);
+      high.textContent = say(known.reduce((a, b) => Math.max(a, b), -Infinity));
+      low.textContent = say(known.reduce((a, b) => Math.min(a, b), Infinity));
       const dot = h("span", { class: "dot" });
       dot.style.background = curves[k % curves.length];
       figures.append(h("tr", {}, h("th", { scope: "row" }, dot, curve.name), high, now, low));
@@ -180,7 +182,7 @@ export class Plots {
     });
     const update = (): void => {
       cells.forEach((cell, k) => {
-        cell.textContent = digits(at_time(data.times, data.curves[k].values, this.time) / unit.size);
+        cell.textContent = say(at_time(data.times, data.curves[k].values, this.time));
       });
       plot.redraw(false);
     };

@@ -62,10 +62,10 @@ export function contacts(run: Run, units: Units): HTMLElement[] {
   const out = [
     table(
       "Contacts",
-      ["between", "first touch", "left", "duration", "99 % of push", "peak force", "impulse, N s"],
+      ["between", "first touch", "left", "duration", "99 % of push", "peak force"],
       shown.map(([name, c]) => [
         name, time(c.first_touch), c.last_separation === null ? "still on" : time(c.last_separation), time(c.duration),
-        time(c.duration_99), with_unit(c.peak_force, "N", units), vector(c.impulse),
+        time(c.duration_99), with_unit(c.peak_force, "N", units),
       ]),
     ),
   ];
@@ -74,10 +74,10 @@ export function contacts(run: Run, units: Units): HTMLElement[] {
   out.push(
     table(
       "Episodes",
-      ["between", "", "touch", "left", "duration", "peak force", "impulse, N s", "restitution", "along the boundary"],
+      ["between", "", "touch", "duration", "peak force", "impulse, N s", "restitution", "tangential"],
       some.map(({ name, e, k }) => [
-        name, String(k + 1), time(e.first_touch), e.separation === null ? "still on" : time(e.separation),
-        time(e.duration), with_unit(e.peak_force, "N", units), vector(e.impulse), digits(e.restitution, 3),
+        name, String(k + 1), time(e.first_touch), e.separation === null ? "still on" : time(e.duration),
+        with_unit(e.peak_force, "N", units), vector(e.impulse), digits(e.restitution, 3),
         digits(e.tangential_restitution, 3),
       ]),
     ),

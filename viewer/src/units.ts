@@ -72,7 +72,7 @@ export function digits(value: number | null | undefined, count = 4): string {
   const text = size >= 1e5 || size < 1e-3 ? value.toExponential(count - 1) : value.toPrecision(count);
   const [mantissa, exponent] = text.split("e");
   const short = mantissa.includes(".") ? mantissa.replace(/\.?0+$/, "") : mantissa;
-  return (exponent === undefined ? short : `${short}e${exponent.replace("+", "")}`).replace("-", "−");
+  return (exponent === undefined ? short : `${short}e${exponent.replace("+", "")}`).replaceAll("-", "−");
 }
 
 /** A number with the unit that suits it. */
