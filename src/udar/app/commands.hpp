@@ -17,8 +17,18 @@ struct RunArguments {
   int threads = 0;
 };
 
+struct ReportArguments {
+  std::string run;                  ///< folder
+  std::string output;               ///< empty: report.html in it
+  std::string limit = "25 MB";      ///< of the file
+  std::vector<std::string> fields;  ///< empty: all
+  std::size_t frames = 0;           ///< at most; 0: all
+  std::string page;                 ///< a viewer to take instead of the one built in
+};
+
 ExitCode run_command(const RunArguments& arguments);
 ExitCode check_command(const RunArguments& arguments);
+ExitCode report_command(const ReportArguments& arguments);
 ExitCode keys_command(const std::string& filter);
 
 }  // namespace udar

@@ -39,11 +39,18 @@ Ctrl-C finishes the step and saves everything; a second one stops at once.)";
 constexpr const char* check_footer = R"(Example:
   udar check cases/short-beam/short-beam.toml --set bodies.beam.mesh.element_size="0.5 cm")";
 
+constexpr const char* report_footer = R"(Examples:
+  udar report runs/short-beam
+  udar report runs/short-beam --limit "5 MB" --output short-beam.html
+  udar report runs/short-beam --fields plastic_strain,principal_1 --frames 50
+
+`udar run` makes the same file by itself; this is for old runs and other choices.)";
+
 constexpr const char* keys_footer = R"(Examples:
   udar keys
   udar keys friction)";
 
-const std::vector<std::string> commands{"run", "check", "keys"};
+const std::vector<std::string> commands{"run", "check", "report", "keys"};
 
 void add_case_options(CLI::App& command, RunArguments& arguments) {
   command.add_option("CASE", arguments.case_file, "Case file, as docs/case-file.md tells")->required()->type_name("");
@@ -117,6 +124,24 @@ ExitCode run_program(int count, char** words) {
   check_app->footer(check_footer);
   add_case_options(*check_app, check);
 
+  ReportArguments report;
+  CLI::App* report_app = app.add_subcommand("report", "Make report.html of a run: one file that shows it in a browser");
+  report_app->footer(report_footer);
+  report_app->add_option("RUN", report.run, "Folder of a run")->required()->type_name("");
+  report_app->add_option("--limit", report.limit, "Size of the file at most; a plain number is in MB")
+      ->type_name("SIZE")
+      ->capture_default_str();
+  report_app->add_option("--fields", report.fields, "Only these fields: plastic_strain,principal_1")
+      ->type_name("NAME,...")
+      ->delimiter(',');
+  report_app->add_option("--frames", report.frames, "At most so many frames, 2 or more")
+      ->type_name("N")
+      ->check(CLI::Range(2, 1'000'000).description(""));
+  report_app->add_option("--output", report.output, "File to write; else report.html in the folder of the run")
+      ->type_name("FILE");
+  // For those who work on the viewer.
+  report_app->add_option("--template", report.page, "")->group("");
+
   std::string filter;
   CLI::App* keys_app = app.add_subcommand("keys", "List what a case file may say");
   keys_app->footer(keys_footer);
@@ -130,6 +155,7 @@ ExitCode run_program(int count, char** words) {
   }
   if (run_app->parsed()) return run_command(run);
   if (check_app->parsed()) return check_command(check);
+  if (report_app->parsed()) return report_command(report);
   return keys_command(filter);
 }
 

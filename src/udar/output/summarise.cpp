@@ -55,6 +55,31 @@ PenetrationSummary deepest_of(const Model& model, const State& state) {
           .stiffness = d.stiffness};
 }
 
+void name_parts(const Model& model, Summary& s) {
+  for (const Body& body : model.bodies) {
+    s.masses[body.name] = body.mass;
+    s.bodies.push_back({.name = body.name,
+                        .rigid = body.rigid,
+                        .elements = body.element_end - body.element_begin,
+                        .nodes = body.node_end - body.node_begin});
+  }
+  for (const Obstacle& obstacle : model.obstacles) s.obstacles.push_back(obstacle.name);
+}
+
+/// By the names of their histories, which make_observers gives: energy, momentum, nodes, elements.
+void tell_observed(const Model& model, Summary& s) {
+  const std::vector<Observer> observers = make_observers(model);
+  std::size_t next = 2;
+  for (const NodeObserver& o : model.observed_nodes) {
+    s.observed[observers[next++].name] = {
+        .on = "node", .body = model.body_of_node(o.node).name, .number = model.node_numbers[o.node]};
+  }
+  for (const ElementObserver& o : model.observed_elements) {
+    s.observed[observers[next++].name] = {
+        .on = "element", .body = model.body_of_element(o.element).name, .number = model.element_numbers[o.element]};
+  }
+}
+
 /// What a gap in the momentum books is compared with where the momentum of the start says nothing, kg m/s: the largest
 /// sum of m |v| that the energy of the run allows (all pushes may balance) and the impulses (all may be held).
 double momentum_at_stake(const Model& model, const State& state) {
@@ -193,7 +218,8 @@ Summary summarise(const Model& model, const State& state) {
   s.momentum_error = scale > 0 ? state.ledger.momentum_gap / scale : 0;
   s.penetration_ratio = state.largest_penetration;
   s.deepest_penetration = deepest_of(model, state);
-  for (const Body& body : model.bodies) s.masses[body.name] = body.mass;
+  name_parts(model, s);
+  tell_observed(model, s);
   s.time_step = {.min = clock.smallest_step,
                  .max = clock.largest_step,
                  .time_of_min = clock.tightest_time,

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr std::array top_files{RunFolder::given_case,    RunFolder::resolved_case, RunFolder::version,
                                RunFolder::summary,       RunFolder::log,           RunFolder::setup_picture,
-                               RunFolder::final_picture, RunFolder::fields_index};
+                               RunFolder::final_picture, RunFolder::report,        RunFolder::fields_index};
 
 /// `name` without the ending that a killed `write_file` leaves.
 std::string_view without_temporary(std::string_view name) {

@@ -16,6 +16,7 @@ struct RunFolder {
   static constexpr std::string_view log = "log.txt";
   static constexpr std::string_view setup_picture = "setup.svg";
   static constexpr std::string_view final_picture = "final.svg";
+  static constexpr std::string_view report = "report.html";
   static constexpr std::string_view fields_index = "fields.pvd";
   static constexpr std::string_view fields = "fields";        ///< folder of `*.vtu`
   static constexpr std::string_view histories = "histories";  ///< folder of `*.csv`

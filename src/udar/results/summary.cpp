@@ -112,10 +112,33 @@ void for_each_member(T& s, Visit visit) {
   visit("first_shortened_by", s.first_shortened_by);
 }
 
+template <Is<BodySummary> T, class Visit>
+void for_each_member(T& s, Visit visit) {
+  visit("name", s.name);
+  visit("rigid", s.rigid);
+  visit("elements", s.elements);
+  visit("nodes", s.nodes);
+}
+
+template <Is<ObservedSummary> T, class Visit>
+void for_each_member(T& s, Visit visit) {
+  visit("on", s.on);
+  visit("body", s.body);
+  visit("number", s.number);
+}
+
+template <Is<MachineSummary> T, class Visit>
+void for_each_member(T& s, Visit visit) {
+  visit("processor", s.processor);
+  visit("threads", s.threads);
+}
+
 template <Is<Summary> T, class Visit>
 void for_each_member(T& s, Visit visit) {
   visit("version", s.version);
   visit("case_name", s.case_name);
+  visit("started", s.started);
+  visit("machine", s.machine);
   visit("elements", s.elements);
   visit("nodes", s.nodes);
   visit("steps", s.steps);
@@ -134,6 +157,9 @@ void for_each_member(T& s, Visit visit) {
   visit("warnings", s.warnings);
   visit("stop_reason", s.stop_reason);
   visit("masses", s.masses);
+  visit("bodies", s.bodies);
+  visit("obstacles", s.obstacles);
+  visit("observed", s.observed);
   visit("time_step", s.time_step);
   visit("ledger", s.ledger);
   visit("momentum", s.momentum);

@@ -110,9 +110,32 @@ struct TimeStepSummary {
   std::string first_shortened_by;      ///< "beam element 1873"
 };
 
+/// A body of the case.
+struct BodySummary {
+  std::string name;
+  bool rigid = false;
+  long long elements = 0;
+  long long nodes = 0;
+};
+
+/// Where an observer of a node or an element sits: the number that the user's mesh gave it.
+struct ObservedSummary {
+  std::string on;  ///< node or element
+  std::string body;
+  long long number = 0;
+};
+
+/// The computer that the case ran on.
+struct MachineSummary {
+  std::string processor;  ///< its model; empty where the system does not tell
+  int threads = 0;        ///< that it runs at once
+};
+
 struct Summary {
   std::string version;
   std::string case_name;
+  std::string started;  ///< UTC, "2025-07-01T12:34:56Z"
+  MachineSummary machine;
   long long elements = 0;
   long long nodes = 0;
   long long steps = 0;
@@ -126,11 +149,14 @@ struct Summary {
   double momentum_error = no_number;     ///< part of the momentum, largest over time
   double penetration_ratio = no_number;  ///< deepest penetration over element size
   PenetrationSummary deepest_penetration;
-  std::string verdict;                   ///< good, doubtful or bad
-  std::vector<std::string> reasons;      ///< why not good
-  std::vector<std::string> warnings;     ///< what may spoil the result though the books close, with its cure
-  std::string stop_reason;               ///< end_time, interrupted, numerical or disk
-  std::map<std::string, double> masses;  ///< kg, by body
+  std::string verdict;                              ///< good, doubtful or bad
+  std::vector<std::string> reasons;                 ///< why not good
+  std::vector<std::string> warnings;                ///< what may spoil the result though the books close, with its cure
+  std::string stop_reason;                          ///< end_time, interrupted, numerical or disk
+  std::map<std::string, double> masses;             ///< kg, by body
+  std::vector<BodySummary> bodies;                  ///< in the order of the case
+  std::vector<std::string> obstacles;               ///< names, in the order of the case
+  std::map<std::string, ObservedSummary> observed;  ///< nodes and elements, by name of their history
   TimeStepSummary time_step;
   LedgerSummary ledger;
   MomentumSummary momentum;

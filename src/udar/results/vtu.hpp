@@ -122,4 +122,12 @@ std::string to_vtu(const VtuGrid& grid);
 VtuGrid read_vtu(const std::filesystem::path& path);
 VtuGrid parse_vtu(std::string_view bytes);
 
+/// What of a frame is wanted beside its time and places; nothing else is unpacked.
+struct VtuPart {
+  std::vector<std::string> fields;  ///< names, on points or cells; those that are not there are passed over
+  bool cells = false;               ///< corners, ends and kinds too
+};
+
+VtuGrid read_vtu(const std::filesystem::path& path, const VtuPart& part);
+
 }  // namespace udar

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -78,6 +79,13 @@ struct GridReader {
   /// on the whole, 1 MB of lies costs many GB. Frames of Udar unpack to some ten times their size.
   std::size_t budget = (std::size_t{1} << 23) + 8 * data.size();
   VtuGrid grid{};
+  const VtuPart* part = nullptr;  ///< none: everything
+
+  [[nodiscard]] bool wants_field(const XmlTag& tag) const {
+    return part == nullptr ||
+           std::find(part->fields.begin(), part->fields.end(), tag.attribute("Name")) != part->fields.end();
+  }
+  [[nodiscard]] bool wants_cells() const { return part == nullptr || part->cells; }
 
   VtuArray read_array(const XmlTag& tag, std::size_t tuples) {
     const std::size_t offset = tag.count("offset").value_or(data.size() + 1);
@@ -130,23 +138,22 @@ struct GridReader {
 
   void read_tag(const std::string& section, const XmlTag& tag) {
     if (section == "FieldData" && tag.attribute("Name") == "TimeValue") grid.time = read_plain<double>(tag, 1)[0];
-    if (section == "PointData") grid.point_fields.push_back(read_array(tag, point_count));
-    if (section == "CellData") grid.cell_fields.push_back(read_array(tag, cell_count));
+    if (section == "PointData" && wants_field(tag)) grid.point_fields.push_back(read_array(tag, point_count));
+    if (section == "CellData" && wants_field(tag)) grid.cell_fields.push_back(read_array(tag, cell_count));
     if (section == "Points") read_points(tag);
-    if (section == "Cells") read_cells(tag);
+    if (section == "Cells" && wants_cells()) read_cells(tag);
   }
 
   XmlTag connectivity{};
 };
 
-}  // namespace
-
-VtuGrid parse_vtu(std::string_view bytes) {
+VtuGrid parse_part(std::string_view bytes, const VtuPart* part) {
   const std::size_t appended = bytes.find("<AppendedData encoding=\"raw\">");
   const std::size_t start = bytes.find('_', appended);
   check(appended != std::string_view::npos && start != std::string_view::npos, "there is no appended raw data");
 
   GridReader reader{.data = bytes.substr(start + 1)};
+  reader.part = part;
   XmlScanner scanner(bytes.substr(0, appended));
   std::string section;
   std::size_t pieces = 0;
@@ -166,18 +173,24 @@ VtuGrid parse_vtu(std::string_view bytes) {
     }
   }
   check(pieces == 1 && reader.grid.points.size() == reader.point_count, "points are missing");
-  reader.read_connectivity();
+  if (reader.wants_cells()) reader.read_connectivity();
   return std::move(reader.grid);
 }
 
-VtuGrid read_vtu(const std::filesystem::path& path) {
+VtuGrid read_part(const std::filesystem::path& path, const VtuPart* part) {
   constexpr std::size_t most_bytes = std::size_t{4} << 30;
   const std::string bytes = read_file(path, most_bytes);
   try {
-    return parse_vtu(bytes);
+    return parse_part(bytes, part);
   } catch (const OutputError& error) {
     throw OutputError(fmt::format("cannot read {}: {}", path.string(), error.what()));
   }
 }
+
+}  // namespace
+
+VtuGrid parse_vtu(std::string_view bytes) { return parse_part(bytes, nullptr); }
+VtuGrid read_vtu(const std::filesystem::path& path) { return read_part(path, nullptr); }
+VtuGrid read_vtu(const std::filesystem::path& path, const VtuPart& part) { return read_part(path, &part); }
 
 }  // namespace udar

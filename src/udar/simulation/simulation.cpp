@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 
 #include "udar/case/build_model.hpp"
 #include "udar/output/contact_recorder.hpp"
@@ -71,6 +72,31 @@ class Recorders {
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// Now, in UTC: "2025-07-01T12:34:56Z".
+std::string now_text() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  ::gmtime_r(&now, &parts);
+  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", parts.tm_year + 1900, parts.tm_mon + 1, parts.tm_mday,
+                     parts.tm_hour, parts.tm_min, parts.tm_sec);
+}
+
+MachineSummary this_machine() {
+  MachineSummary machine{.processor = "", .threads = available_threads()};
+  std::string text;
+  try {
+    text = read_file("/proc/cpuinfo", std::size_t{1} << 24);
+  } catch (const OutputError&) {
+    return machine;  // other systems have no such file
+  }
+  const std::size_t row = text.find("model name");
+  const std::size_t colon = text.find(": ", row);
+  if (row != std::string::npos && colon < text.find('\n', row)) {
+    machine.processor = text.substr(colon + 2, text.find('\n', colon) - colon - 2);
+  }
+  return machine;
 }
 
 std::string log_head(const Model& model, const RunOptions& options) {
@@ -156,6 +182,7 @@ void Simulation::compute(const RunOptions& options, Workspace& work, const std::
 
 Summary Simulation::run(const RunOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
+  const std::string started = now_text();
   Workspace work(model_, options.threads > 0 ? options.threads : threads_for(model_));
   state_ = start(model_, work);
   std::optional<RunFolder> folder;
@@ -181,6 +208,8 @@ Summary Simulation::run(const RunOptions& options) {
     Summary s = sums;
     s.version = version_text();
     s.case_name = options.case_name;
+    s.started = started;
+    s.machine = this_machine();
     s.threads = work.pool.threads();
     s.wall_seconds = seconds;
     s.stepping_seconds = stepping;

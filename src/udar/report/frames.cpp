@@ -1,0 +1,175 @@
+#include "udar/report/frames.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "udar/base/error.hpp"
+
+namespace udar {
+namespace {
+
+void check(bool right, const std::filesystem::path& file, std::string_view what) {
+  if (!right) throw OutputError(fmt::format("cannot read {}: {}", file.string(), what));
+}
+
+const VtuArray* find(const std::vector<VtuArray>& fields, std::string_view name) {
+  const auto at = std::find_if(fields.begin(), fields.end(), [&](const VtuArray& f) { return f.name == name; });
+  return at == fields.end() ? nullptr : &*at;
+}
+
+/// Whole numbers of a field, or 0, 1, 2, ... where the frame has none.
+std::vector<std::uint32_t> numbers_of(const std::vector<VtuArray>& fields, std::string_view name, std::size_t count) {
+  std::vector<std::uint32_t> out(count);
+  const VtuArray* field = find(fields, name);
+  const auto* values = field == nullptr ? nullptr : std::get_if<std::vector<std::int32_t>>(&field->values);
+  for (std::size_t i = 0; i < count; ++i) out[i] = static_cast<std::uint32_t>(values == nullptr ? i : (*values)[i]);
+  return out;
+}
+
+/// Begins and ends of the runs of each body; where the frame does not tell, all is one body.
+std::vector<std::size_t> ends_of_bodies(const std::vector<VtuArray>& fields, std::size_t count,
+                                        const std::filesystem::path& file) {
+  const VtuArray* field = find(fields, "body");
+  const auto* bodies = field == nullptr ? nullptr : std::get_if<std::vector<std::int32_t>>(&field->values);
+  if (bodies == nullptr) return {count};
+  std::vector<std::size_t> ends;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto body = static_cast<std::size_t>((*bodies)[i]);
+    const bool goes_on = !ends.empty() && body + 1 == ends.size();
+    check(goes_on || body == ends.size(), file, "nodes or elements of the bodies are not in order");
+    if (!goes_on) ends.push_back(i);
+    ends.back() = i + 1;
+  }
+  return ends;
+}
+
+/// One component of a field as 32-bit numbers, put behind `out`.
+void add_component(const VtuArray& field, int component, std::vector<float>& out) {
+  const auto step = static_cast<std::size_t>(field.components);
+  std::visit(
+      [&](const auto& values) {
+        for (auto i = static_cast<std::size_t>(component); i < values.size(); i += step) {
+          out.push_back(static_cast<float>(values[i]));
+        }
+      },
+      field.values);
+}
+
+/// The middle of a body's nodes; those that are nowhere do not count.
+Vec2 middle(std::span<const Vec2> points) {
+  Vec2 sum{};
+  double count = 0;
+  for (const Vec2& p : points) {
+    if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
+    sum += p;
+    ++count;
+  }
+  return count > 0 ? (1 / count) * sum : Vec2{};
+}
+
+constexpr std::string_view force_field = "contact_force_N";
+
+void add_forces(const VtuArray& field, NodeForces& forces) {
+  const auto* values = std::get_if<std::vector<float>>(&field.values);
+  if (values == nullptr || field.components != 3) return forces.counts.push_back(0);
+  std::uint32_t count = 0;
+  for (std::size_t i = 0; i + 2 < values->size(); i += 3) {
+    if ((*values)[i] == 0 && (*values)[i + 1] == 0) continue;
+    forces.nodes.push_back(static_cast<std::uint32_t>(i / 3));
+    forces.x.push_back((*values)[i]);
+    forces.y.push_back((*values)[i + 1]);
+    ++count;
+  }
+  forces.counts.push_back(count);
+}
+
+void add_places(const VtuGrid& grid, const ReportMesh& mesh, const Wanted& wanted, Chunk& chunk) {
+  for (const MeshBody& body : mesh.bodies) {
+    const auto points = std::span(grid.points).subspan(body.node_begin, body.node_end - body.node_begin);
+    const Vec2 centre = middle(points);
+    chunk.centre_x.push_back(centre.x);
+    chunk.centre_y.push_back(centre.y);
+    for (std::size_t q = 0; q < wanted.quantities.size(); ++q) {
+      if (!wanted.quantities[q].field.empty()) continue;
+      const bool is_x = wanted.quantities[q].component == 0;
+      for (const Vec2& p : points) {
+        chunk.values[q].push_back(static_cast<float>(is_x ? p.x - centre.x : p.y - centre.y));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+ReportMesh read_mesh(const FrameFiles& frame) {
+  VtuGrid grid = read_vtu(frame.bodies);
+  ReportMesh mesh{.nodes = grid.points.size(), .elements = grid.ends.size()};
+  check(grid.corners.size() == 3 * mesh.elements, frame.bodies, "not all cells are triangles");
+  mesh.corners.resize(grid.corners.size());
+  for (std::size_t e = 0; e < mesh.elements; ++e) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      mesh.corners[c * mesh.elements + e] = static_cast<std::uint32_t>(grid.corners[3 * e + c]);
+    }
+  }
+  mesh.node_numbers = numbers_of(grid.point_fields, "node_number", mesh.nodes);
+  mesh.element_numbers = numbers_of(grid.cell_fields, "element_number", mesh.elements);
+  const auto nodes = ends_of_bodies(grid.point_fields, mesh.nodes, frame.bodies);
+  const auto elements = ends_of_bodies(grid.cell_fields, mesh.elements, frame.bodies);
+  check(nodes.size() == elements.size(), frame.bodies, "nodes and elements are of different bodies");
+  MeshBody body;
+  for (std::size_t b = 0; b < nodes.size(); ++b) {
+    body = {body.node_end, nodes[b], body.element_end, elements[b]};
+    mesh.bodies.push_back(body);
+  }
+  for (const auto& fields : {grid.point_fields, grid.cell_fields}) {
+    for (const VtuArray& field : fields) mesh.fields.push_back(field.name);
+  }
+  return mesh;
+}
+
+void add_frame(const FrameFiles& frame, const ReportMesh& mesh, const Wanted& wanted, Chunk& chunk) {
+  VtuPart part;
+  for (const Quantity& q : wanted.quantities) part.fields.emplace_back(q.field);
+  if (wanted.forces) part.fields.emplace_back(force_field);
+  const VtuGrid grid = read_vtu(frame.bodies, part);
+  check(grid.points.size() == mesh.nodes, frame.bodies, "it has other nodes than the first frame");
+
+  chunk.values.resize(wanted.quantities.size());
+  add_places(grid, mesh, wanted, chunk);
+  for (std::size_t q = 0; q < wanted.quantities.size(); ++q) {
+    const Quantity& quantity = wanted.quantities[q];
+    if (quantity.field.empty()) continue;
+    const VtuArray* field = find(quantity.on_nodes ? grid.point_fields : grid.cell_fields, quantity.field);
+    check(field != nullptr && quantity.component < field->components, frame.bodies,
+          fmt::format("it has no field `{}`", quantity.field));
+    const std::size_t before = chunk.values[q].size();
+    add_component(*field, quantity.component, chunk.values[q]);
+    check(chunk.values[q].size() - before == (quantity.on_nodes ? mesh.nodes : mesh.elements), frame.bodies,
+          "it has other elements than the first frame");
+  }
+  if (!wanted.forces) return;
+  const VtuArray* field = find(grid.point_fields, force_field);
+  if (field != nullptr) {
+    add_forces(*field, chunk.forces);
+  } else {
+    chunk.forces.counts.push_back(0);
+  }
+}
+
+std::vector<std::vector<Vec2>> read_outlines(const FrameFiles& frame) {
+  std::vector<std::vector<Vec2>> outlines;
+  if (frame.obstacles.empty()) return outlines;
+  const VtuGrid grid = read_vtu(frame.obstacles);
+  std::int32_t begin = 0;
+  for (const std::int32_t end : grid.ends) {
+    std::vector<Vec2>& outline = outlines.emplace_back();
+    for (; begin < end; ++begin) {
+      outline.push_back(grid.points[static_cast<std::size_t>(grid.corners[static_cast<std::size_t>(begin)])]);
+    }
+  }
+  return outlines;
+}
+
+}  // namespace udar
