@@ -21,6 +21,27 @@ quietly() {
   return "$status"
 }
 
+# build_viewer [--test]: makes viewer/dist/viewer.html, the page without a run, where sources are newer than it. Udar works
+# without it, so what fails here is said and passed over, but for --test, which also installs what tests need.
+build_viewer() {
+  local viewer=$root/viewer only=(--omit=dev) failure=0
+  local installed=$viewer/node_modules/.package-lock.json page=$viewer/dist/viewer.html
+  if [[ ${1:-} == --test ]]; then failure=1; fi
+  if ! command -v npm >/dev/null; then
+    echo "there is no npm: runs will have no report.html (Debian: apt install nodejs npm, then this script again)"
+    return "$failure"
+  fi
+  # What tests need is not taken away again.
+  if [[ ${1:-} == --test || -d $viewer/node_modules/playwright-core ]]; then only=(); fi
+  if [[ ! -e $installed || $viewer/package-lock.json -nt $installed ||
+    (${#only[@]} -eq 0 && ! -d $viewer/node_modules/playwright-core) ]]; then
+    quietly "installing the viewer's libraries" npm --prefix "$viewer" ci --ignore-scripts "${only[@]}" || return "$failure"
+  fi
+  if [[ ! -e $page || -n $(find "$viewer/src" "$viewer/build.mjs" "$installed" -newer "$page" -print -quit) ]]; then
+    quietly "building the viewer" npm --prefix "$viewer" run build || return "$failure"
+  fi
+}
+
 # build PRESET [TARGET...]: brings build/PRESET up to date.
 build() { quietly "building ($1)" build_now "$@"; }
 

@@ -18,7 +18,11 @@ const script = (await bundle("src/main.ts", { WORKER_SOURCE: JSON.stringify(work
 const style =
   (await readFile(join(here, "node_modules/uplot/dist/uPlot.min.css"), "utf8")) +
   (await readFile(join(here, "src/style.css"), "utf8"));
+// The libraries' licences ask for their text in every copy.
+const licence = async (name, file) =>
+  `<!--\n${name}\n\n${(await readFile(join(here, "node_modules", name, file), "utf8")).trim().replaceAll("--", "- -")}\n-->\n`;
 const parts = {
+  licences: (await licence("uplot", "LICENSE")) + (await licence("twgl.js", "LICENSE.md")),
   "script-hash": createHash("sha256").update(script).digest("base64"),
   style: style.replaceAll("</style", "<\\/style"),
   script,

@@ -9,7 +9,7 @@ import { choices, digits, type Units } from "./units.ts";
 import type { View } from "./view.ts";
 
 const button = (id: string, words: string, title: string, press: () => void) =>
-  h("button", { type: "button", id, title, "aria-label": title, onclick: press }, words);
+  h("button", { type: "button", id, title, "aria-label": /^\w/.test(words) ? undefined : title, onclick: press }, words);
 
 /** Time: buttons, slider, speed. */
 export function player_bar(frames: Frames, store: Store<Shown>, player: Player, units: Units): HTMLElement {

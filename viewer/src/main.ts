@@ -21,7 +21,7 @@ import { box_of, opening_box, View } from "./view.ts";
 const room = 128 * 1024 * 1024;
 
 const start: Shown = {
-  frame: 0, playing: false, loop: true, rate: 20, field: "", map: "", range: "run", low: 0, high: 1, smooth: false,
+  frame: 0, playing: false, loop: false, rate: 20, field: "", map: "", range: "run", low: 0, high: 1, smooth: false,
   mesh: true, outline: true, ghost: false, forces: true, follow: "", centre: [0, 0], width: 1, picked: null, units: 0,
   theme: "",
 };
@@ -188,6 +188,9 @@ async function open_page(): Promise<void> {
       store.set({ picked });
     }
     follow_address(store);
+    // Whoever opens a run wants to see it move: once, unless the address or the system asks for peace.
+    const in_peace = location.hash !== "" || matchMedia("(prefers-reduced-motion: reduce)").matches;
+    if (!in_peace) player.play();
     addEventListener("hashchange", () => store.set(from_address(location.hash.slice(1), frames.count, run.nodes, run.elements)));
   }
   document.body.dataset.ready = "true";

@@ -26,6 +26,9 @@ export function run(case_file, name, options = [], status = 0) {
   return folder;
 }
 
+/** Makes report.html of a run folder anew. */
+export const report = (folder) => execFileSync(udar, ["report", folder], { stdio: "pipe" });
+
 export async function open_browser() {
   if (!existsSync(browser_path)) throw new Error(`no browser at ${browser_path}: scripts/setup --test installs it`);
   return chromium.launch({
@@ -36,8 +39,10 @@ export async function open_browser() {
 
 /** Opens a file and waits until its first frame is drawn. `page.faults` collects console errors and warnings, errors
  *  of the program, network requests, dialogs and broken rules of the content policy. */
-export async function open_report(browser, file, { hash = "", width = 1500, height = 950, colours = "light" } = {}) {
-  const context = await browser.newContext({ viewport: { width, height }, colorScheme: colours, acceptDownloads: true });
+export async function open_report(browser, file, { hash = "", width = 1500, height = 950, colours = "light", motion = "reduce" } = {}) {
+  const context = await browser.newContext({
+    viewport: { width, height }, colorScheme: colours, reducedMotion: motion, acceptDownloads: true,
+  });
   const page = await context.newPage();
   page.faults = [];
   page.on("console", (m) => {
