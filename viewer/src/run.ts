@@ -92,7 +92,7 @@ export interface Summary {
   reasons: string[];
   warnings: string[];
   stop_reason: string;
-  machine?: string;
+  machine?: { processor: string; threads: number };
   started?: string;
   contacts: Record<string, Contact>;
 }

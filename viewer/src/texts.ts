@@ -95,7 +95,7 @@ export function origin(run: Run): HTMLElement {
   const s = run.summary;
   const rows: [string, string | undefined][] = [
     ["program", run.version || undefined],
-    ["machine", s?.machine],
+    ["machine", s?.machine && `${s.machine.processor || "unknown processor"}, ${s.machine.threads} threads`],
     ["started", s?.started],
     ["wall time", s ? seconds(s.wall_seconds) : undefined],
     ["element-steps per second", s ? `${digits(1e-6 * s.element_steps_per_second, 3)} million` : undefined],
