@@ -56,17 +56,30 @@ export function at_time(times: Float32Array, values: Float32Array, time: number)
   return part === 0 ? values[low] : values[low] + part * (values[high] - values[low]);
 }
 
+interface Drawn {
+  plot: uPlot;
+  element: HTMLElement;
+  update: () => void;
+  /** Only what is in sight follows the time; the rest catches up when it comes into sight. */
+  in_sight: boolean;
+}
+
 export class Plots {
-  readonly #drawn = new Set<{ plot: uPlot; update: () => void; element: HTMLElement }>();
-  readonly #seen = new IntersectionObserver((entries) => {
-    for (const entry of entries) {
-      if (!entry.isIntersecting) continue;
-      this.#seen.unobserve(entry.target);
-      this.#makers.get(entry.target)?.();
-      this.#makers.delete(entry.target);
-    }
-  }, { rootMargin: "300px" });
+  readonly #drawn = new Map<Element, Drawn>();
   readonly #makers = new Map<Element, () => void>();
+  readonly #sight = new IntersectionObserver((entries) => {
+    for (const { target, isIntersecting } of entries) {
+      const drawn = this.#drawn.get(target);
+      if (drawn) {
+        drawn.in_sight = isIntersecting;
+        if (isIntersecting) drawn.update();
+      }
+      const make = isIntersecting && this.#makers.get(target);
+      if (!make) continue;
+      this.#makers.delete(target);
+      make();
+    }
+  }, { rootMargin: "200px" });
 
   constructor(
     private readonly run: Run,
@@ -75,7 +88,7 @@ export class Plots {
     private readonly units: Units,
     private readonly go: (time: number) => void,
   ) {
-    store.on(["frame"], () => this.#each(({ update }) => update()));
+    store.on(["frame"], () => this.#each(({ in_sight, update }) => in_sight && update()));
     new ResizeObserver(() => this.#each(({ plot, element }) => this.#fit(plot, element))).observe(document.body);
   }
 
@@ -83,12 +96,13 @@ export class Plots {
     return this.run.times[this.store.now.frame] ?? 0;
   }
 
-  #each(what: (drawn: { plot: uPlot; update: () => void; element: HTMLElement }) => void): void {
-    for (const drawn of this.#drawn) {
-      if (drawn.element.isConnected) what(drawn);
-      else {
+  #each(what: (drawn: Drawn) => void): void {
+    for (const [place, drawn] of this.#drawn) {
+      if (place.isConnected) {
+        what(drawn);
+      } else {
         drawn.plot.destroy();
-        this.#drawn.delete(drawn);
+        this.#drawn.delete(place);
       }
     }
   }
@@ -119,7 +133,7 @@ export class Plots {
           });
         });
       });
-      this.#seen.observe(place);
+      this.#sight.observe(place);
     }
     return box;
   }
@@ -161,6 +175,12 @@ export class Plots {
       stroke: ink, grid: { stroke: line, width: 1 }, ticks: { stroke: line, width: 1, size: 4 },
       font: "11px system-ui, sans-serif", values: (_, ticks) => ticks.map((v) => digits(v)),
     });
+    const line_of_time = h("div", { class: "time-line" });
+    const mark_time = (plot: uPlot): void => {
+      const x = plot.valToPos(this.time / time_unit.size, "x");
+      line_of_time.hidden = !(x >= 0 && x <= plot.over.clientWidth);
+      line_of_time.style.transform = `translateX(${x}px)`;
+    };
     const plot = new uPlot(
       {
         width: element.clientWidth || 400,
@@ -170,7 +190,7 @@ export class Plots {
         scales: { x: { time: false } },
         axes: [{ ...axis(), size: 26 }, { ...axis(), size: 58 }],
         series: [{}, ...data.curves.map((_, k) => ({ stroke: curves[k % curves.length], width: 1.5, spanGaps: false }))],
-        hooks: { draw: [(self) => this.#mark_time(self, this.time / time_unit.size)] },
+        hooks: { draw: [(self) => mark_time(self)] },
       },
       [scaled(data.times, time_unit.size), ...data.curves.map((c) => scaled(c.values, unit.size))],
       element,
@@ -184,25 +204,12 @@ export class Plots {
       cells.forEach((cell, k) => {
         cell.textContent = say(at_time(data.times, data.curves[k].values, this.time));
       });
-      plot.redraw(false);
+      mark_time(plot);
     };
+    plot.over.append(line_of_time);
     update();
-    this.#drawn.add({ plot, update, element });
-  }
-
-  #mark_time(plot: uPlot, time: number): void {
-    const x = Math.round(plot.valToPos(time, "x", true));
-    const { ctx } = plot;
-    const { left, top, width, height } = plot.bbox;
-    if (x < left || x > left + width) return;
-    ctx.save();
-    ctx.strokeStyle = getComputedStyle(document.body).getPropertyValue("--accent");
-    ctx.lineWidth = 1.5 * devicePixelRatio;
-    ctx.beginPath();
-    ctx.moveTo(x, top);
-    ctx.lineTo(x, top + height);
-    ctx.stroke();
-    ctx.restore();
+    this.#drawn.set(place, { plot, element, update, in_sight: true });
+    this.#sight.observe(place);
   }
 
   /** Draws all again, for other units or colours. */
