@@ -76,13 +76,19 @@ export class Picking {
       this.#what.textContent = this.frames.count > 0 ? "Click into a body to see what happens there." : "";
       return;
     }
-    const body = this.run.bodies[this.frames.body_of(picked.on, picked.index)]?.name ?? "?";
+    const body = this.#body(picked);
     const numbers = picked.on === "nodes" ? this.frames.node_numbers : this.frames.element_numbers;
     const names = Object.entries(this.run.observed)
       .filter(([, o]) => o.on === picked.on && o.index === picked.index).map(([name]) => name);
+    const is_bare = picked.on === "elements" && body?.rigid;
     this.#what.textContent =
-      `${picked.on === "nodes" ? "Node" : "Element"} ${numbers[picked.index]} of ${body}` +
-      (names.length > 0 ? `, observed as ${names.join(", ")}: its histories below have more rows` : "");
+      `${picked.on === "nodes" ? "Node" : "Element"} ${numbers[picked.index]} of ${body?.name ?? "?"}` +
+      (names.length > 0 ? `, observed as ${names.join(", ")}: its histories below have more rows` : "") +
+      (is_bare ? ", which is rigid: it has no stress" : "");
+  }
+
+  #body({ on, index }: Picked) {
+    return this.run.bodies[this.frames.body_of(on, index)];
   }
 
   /** What the picked place feels in the frame that is drawn. */
@@ -121,7 +127,8 @@ export class Picking {
       return figure;
     };
     const field = this.field();
-    const at_field = field && field.on === picked.on && !field.flag ? place(field.id) : null;
+    const is_bare = picked.on === "elements" && this.#body(picked)?.rigid;
+    const at_field = field && field.on === picked.on && !field.flag && !is_bare ? place(field.id) : null;
     if (picked.on === "nodes") {
       const at = place("displacement");
       const body = this.frames.body_of("nodes", picked.index);

@@ -75,8 +75,9 @@ export class Show {
       places,
       field,
       values,
-      below: values?.some((v) => v < low - 1e-6 * (high - low)) ?? false,
-      above: values?.some((v) => v > high + 1e-6 * (high - low)) ?? false,
+      // What the coding of the page moves a value by is not told.
+      below: values?.some((v) => v < low - 0.005 * (high - low)) ?? false,
+      above: values?.some((v) => v > high + 0.005 * (high - low)) ?? false,
       forces,
     };
     stage.repaint();
