@@ -12,7 +12,7 @@ export function save(blob: Blob, name: string): void {
 
 export function save_picture(stage: Stage, name: string): Promise<void> {
   const canvas = h("canvas");
-  stage.compose(canvas);
+  stage.compose(canvas, 2);
   return new Promise((done) =>
     canvas.toBlob((blob) => {
       if (blob) save(blob, `${name}.png`);
@@ -21,6 +21,7 @@ export function save_picture(stage: Stage, name: string): Promise<void> {
   );
 }
 
+const film_ratio = 1.5; // px for one of the page: sharp, and drawn in time
 const kinds = [
   ["video/webm;codecs=vp9", "webm"], ["video/webm;codecs=vp8", "webm"], ["video/webm", "webm"], ["video/mp4", "mp4"],
 ];
@@ -42,7 +43,7 @@ export async function save_film(
   const { frame: before, rate } = store.now;
   store.set({ playing: false, frame: 0 });
   await bring();
-  stage.compose(canvas);
+  stage.compose(canvas, film_ratio);
   const stream = canvas.captureStream(0);
   const track = stream.getVideoTracks()[0] as CanvasCaptureMediaStreamTrack;
   const recorder = new MediaRecorder(stream, { mimeType: kind[0], videoBitsPerSecond: 12_000_000 });
@@ -55,7 +56,7 @@ export async function save_film(
     const begin = performance.now();
     store.set({ frame });
     await bring();
-    stage.compose(canvas);
+    stage.compose(canvas, film_ratio);
     track.requestFrame();
     tell(frame + 1);
     await new Promise((done) => setTimeout(done, Math.max(0, 1000 / rate - (performance.now() - begin))));

@@ -156,6 +156,7 @@ export interface Window {
   scale: number;
   width: number;
   height: number;
+  ratio: number; // px of the picture for one of the page
 }
 
 export class Scene {
@@ -268,7 +269,7 @@ export class Scene {
       ends: this.#ends.texture,
       places: places.texture,
       px_per_clip: [window.width / 2, window.height / 2],
-      half_width: half_width * devicePixelRatio,
+      half_width: half_width * window.ratio,
       line,
     });
     gl.drawArrays(gl.TRIANGLES, 0, 6 * this.#edges);

@@ -53,6 +53,7 @@ export class Stage {
   readonly failure: string = "";
   drawn: Drawn | null = null;
   #waiting = 0;
+  #ratio = devicePixelRatio; // px of the canvases for one of the page
 
   constructor(
     readonly root: HTMLElement,
@@ -75,13 +76,14 @@ export class Stage {
     if (this.#waiting) return;
     this.#waiting = requestAnimationFrame(() => {
       this.#waiting = 0;
+      this.#ratio = devicePixelRatio;
       this.paint();
     });
   }
 
   #fresh(canvas: HTMLCanvasElement): Canvas {
     const context = canvas.getContext("2d")!;
-    context.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
+    context.setTransform(this.#ratio, 0, 0, this.#ratio, 0, 0);
     context.clearRect(0, 0, this.root.clientWidth, this.root.clientHeight);
     return context;
   }
@@ -90,7 +92,7 @@ export class Stage {
     const { clientWidth, clientHeight } = this.root;
     if (clientWidth === 0 || clientHeight === 0) return;
     for (const canvas of [this.#under, this.#bodies, this.#over]) {
-      const [width, height] = [clientWidth, clientHeight].map((px) => Math.round(px * devicePixelRatio));
+      const [width, height] = [clientWidth, clientHeight].map((px) => Math.round(px * this.#ratio));
       if (canvas.width !== width) canvas.width = width;
       if (canvas.height !== height) canvas.height = height;
     }
@@ -106,9 +108,11 @@ export class Stage {
     draw_obstacles(under, outlines.sets[outlines.of_frame[drawn.frame]] ?? [], to_px, paints);
     const [ox, oy] = this.frames.origin;
     const [cx, cy] = this.view.centre(drawn.frame);
-    const scale = this.view.scale * devicePixelRatio;
+    const ratio = this.#ratio;
     const { width, height } = this.#bodies;
-    scene?.draw({ centre: [cx - ox, cy - oy], scale, width, height }, this.#look(drawn, paints));
+    scene?.draw(
+      { centre: [cx - ox, cy - oy], scale: this.view.scale * ratio, width, height, ratio }, this.#look(drawn, paints),
+    );
     this.#draw_forces(over, drawn, to_px, paints);
     this.#draw_picked(over, drawn, to_px, paints);
     draw_scale(over, this.view.scale, this.units.for("m", (0.2 * clientWidth) / this.view.scale), paints);
@@ -247,13 +251,14 @@ export class Stage {
     }
   }
 
-  /** The picture with title, time and colour bar, as it goes into a file; the canvas gets the size it takes. */
-  compose(canvas: HTMLCanvasElement): void {
+  /** The picture with title, time and colour bar, as it goes into a file, with `least_ratio` px or more for one of the page;
+   *  the canvas gets the size it takes. */
+  compose(canvas: HTMLCanvasElement, least_ratio: number): void {
+    const ratio = (this.#ratio = Math.max(devicePixelRatio, least_ratio));
     this.paint();
     const { clientWidth, clientHeight } = this.root;
     const head = 34;
     const foot = this.drawn?.field ? 56 : 8;
-    const ratio = devicePixelRatio;
     canvas.width = 2 * Math.round((clientWidth * ratio) / 2); // even sizes, for films
     canvas.height = 2 * Math.round(((clientHeight + head + foot) * ratio) / 2);
     const context = canvas.getContext("2d")!;
@@ -271,6 +276,7 @@ export class Stage {
     context.textAlign = "left";
     context.translate(0, head + clientHeight);
     this.#draw_key(context, 4, Math.min(clientWidth - 32, 420));
+    this.repaint();
   }
 
   time_text(): string {
