@@ -19,6 +19,7 @@ import unittest
 
 PROGRAM = ""
 SHORT_BEAM = pathlib.Path()
+VIEWER = False  # whether the program was built with the viewer
 
 CASE = """\
 [run]
@@ -79,7 +80,8 @@ class CommandLine(Program):
         out, _ = self.udar("--help")
         self.assertIn("udar run cases/short-beam/short-beam.toml", out)
         self.assertIn("Exit codes", out)
-        for command, word in {"run": "--output", "check": "--set", "keys": "udar keys friction"}.items():
+        for command, word in {"run": "--output", "check": "--set", "report": "--limit",
+                              "keys": "udar keys friction"}.items():
             self.assertIn(command, out)
             text, _ = self.udar(command, "--help")
             self.assertIn("Example", text)
@@ -91,10 +93,17 @@ class CommandLine(Program):
 
     def test_wrong_commands(self):
         for words, message, cure in [
-            ([], "a command is needed: run, check or keys", "udar --help"),
+            ([], "a command is needed: run, check, report or keys", "udar --help"),
             (["rnu", "block.toml"], "`rnu` is no command", "did you mean `run`?"),
-            (["frobnicate"], "`frobnicate` is no command", "write run, check or keys"),
+            (["frobnicate"], "`frobnicate` is no command", "write run, check, report or keys"),
             (["run"], "a case file is needed", "`udar run --help`"),
+            (["report"], "the folder of a run is needed", "`udar report --help`"),
+            (["report", "runs", "--frames", "1"], "--frames", "`udar report --help`"),
+            (["report", "runs", "--limits=5"], "`--limits=5` is not understood", "did you mean `--limit`?"),
+            (["report", "nowhere"], "`nowhere` is not there", "runs/short-beam"),
+            (["report", "."], "is not the folder of a run", "runs/short-beam"),
+            (["report", ".", "--limit", "many"], "`--limit many` is no size of a file", "25 MB"),
+            (["report", ".", "--limit", "-1 MB"], "is no size of a file", "25 MB"),
             (["run", "block.toml", "--ouput", "x"], "`--ouput` is not understood", "did you mean `--output`?"),
             (["check", "block.toml", "--sett=a=b"], "`--sett=a=b` is not understood", "did you mean `--set`?"),
             (["run", "block.toml", "other.toml"], "`other.toml` is not understood", "`udar run --help`"),
@@ -253,12 +262,21 @@ class Run(Program):
         self.assertEqual(summary["stop_reason"], "end_time")
         self.assertEqual(summary["case_name"], "block")
         self.assertIn(f"verdict: {summary['verdict']} ", out)
-        self.assertIn("-> runs/block\n", out)
+        self.assertIn("-> runs/block/report.html\n" if VIEWER else "-> runs/block\n", out)
+        self.assertIn("look at report.html in a browser" if VIEWER else "no report.html: the page needs the viewer", out)
         self.assertIn("fields.pvd in ParaView", out)
         self.assertNotIn("\r", out)
         self.assertNotIn("\x1b", out)
         self.assertLessEqual(max(map(len, out.splitlines())), 130)
         self.assertEqual(sum(line.split()[:1] == ["step"] for line in out.splitlines()), 1)
+
+    def test_without_a_report(self):
+        for words in [["--no-report"], ["--set", "output.report=false"]]:
+            out, _ = self.udar("run", "block.toml", "--force", *words)
+            self.assertEqual(self.names("runs/block"), WHOLE - {"report.html"})
+            self.assertIn("-> runs/block\n", out)
+            self.assertIn("look at final.svg in a browser", out)
+            self.assertNotIn("report.html", out)
 
     def test_summary_keeps_its_names(self):
         self.udar("run", "block.toml")
@@ -309,7 +327,7 @@ mesh = {{ shape = "rectangle", size = ["1 cm", "1 cm"], at = ["{k * 1.0001} cm",
         self.udar("run", "block.toml")
         out, _ = self.udar("run", "block.toml")
         self.assertEqual(self.names("runs"), {"block", "block-2", "block-3"})
-        self.assertIn("-> runs/block-3\n", out)
+        self.assertIn("-> runs/block-3", out)
         self.assertEqual((self.folder / "runs/block/summary.json").read_bytes(), first)
 
     def test_force(self):
@@ -364,6 +382,58 @@ mesh = {{ shape = "rectangle", size = ["1 cm", "1 cm"], at = ["{k * 1.0001} cm",
         self.assertIsNotNone(summary["ledger"]["elastic"])
         frames = re.findall(r'timestep="([^"]*)"', (self.folder / "runs/block/fields.pvd").read_text())
         self.assertEqual(float(frames[-1]), summary["end_time"])
+
+
+class Report(Program):
+    """The page is a line here: what is tested is what udar puts into it."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("page.html", "<!doctype html><!-- the run -->")
+        self.udar("run", "block.toml", "--no-report", "--set", "output.fields_every=2 us")
+
+    def report(self, *words, run="runs/block", code=0):
+        return self.udar("report", run, "--template", "page.html", *words, code=code)
+
+    def test_of_an_old_run(self):
+        out, err = self.report()
+        self.assertEqual(err, "")
+        self.assertRegex(out, r"^runs/block/report.html: \S+ kB, 31 frames\n$")
+        text = (self.folder / "runs/block/report.html").read_text()
+        run = json.loads(re.search(r'id="run">(.*?)</script>', text).group(1))
+        self.assertEqual(run["format"], 1)
+        self.assertEqual(run["case_text"], CASE)
+        self.assertEqual(run["summary"], self.summary("runs/block"))
+        self.assertEqual(run["left_out"], [])
+        self.udar("run", "block.toml", "--force", "--no-report")
+        self.assertNotIn("report.html", self.names("runs/block"))
+
+    def test_choices(self):
+        out, _ = self.report("--limit", "50 kB", "--output", "small.html")
+        self.assertLessEqual((self.folder / "small.html").stat().st_size, 50000)
+        self.assertIn("accelerations are left out: they are in fields/\n", out)
+        self.assertNotIn("report.html", self.names("runs/block"))
+        out, _ = self.report("--fields", "plastic_strain,max_shear", "--frames", "2")
+        self.assertIn(", 2 frames\n", out)
+        for words, code, part in [(["--limit", "3 kB"], 2, "give it more with --limit"),
+                                  (["--fields", "plastic_strian"], 2, "did you mean `plastic_strain`?"),
+                                  (["--output", "no/such/place.html"], 6, "the folder does not exist")]:
+            with self.subTest(words):
+                self.assertIn(part, self.report(*words, code=code)[1])
+
+    def test_without_the_viewer(self):
+        if VIEWER:
+            self.udar("report", "runs/block")
+            self.assertIn("report.html", self.names("runs/block"))
+        else:
+            _, err = self.udar("report", "runs/block", code=6)
+            self.assertIn("the page needs the viewer", err)
+            self.assertIn("apt install nodejs npm", err)
+
+    def test_a_full_disk_leaves_no_half_page(self):
+        self.udar("report", "runs/block", "--template", "page.html", code=6,
+                  preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (9000, 9000)))
+        self.assertEqual(self.names("runs/block"), WHOLE - {"report.html"})
 
 
 class Signals(Program):
@@ -489,5 +559,8 @@ class ShortBeam(Program):
 
 if __name__ == "__main__":
     PROGRAM = str(pathlib.Path(sys.argv.pop(1)).resolve())
-    SHORT_BEAM = pathlib.Path(sys.argv.pop(1)).resolve() / "cases/short-beam/short-beam.toml"
+    SOURCE = pathlib.Path(sys.argv.pop(1)).resolve()
+    SHORT_BEAM = SOURCE / "cases/short-beam/short-beam.toml"
+    VIEWER = (SOURCE / "viewer/dist/viewer.html").is_file()
+    WHOLE |= {"report.html"} if VIEWER else set()
     unittest.main()

@@ -52,7 +52,7 @@ class RandomCase {
     c.observed_nodes = {{"n", "a", vector(), window()}, {"N", "b", vector(), window()}};
     c.observed_elements = {{"e", "a", vector(), window()}};
     c.observed_regions = {{"r", "b", triangle(), window()}};
-    c.output = {maybe(positive()), {0, positive(), positive()}, maybe(positive())};
+    c.output = {maybe(positive()), {0, positive(), positive()}, maybe(positive()), false};
     return c;
   }
 

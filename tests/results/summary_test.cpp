@@ -26,6 +26,12 @@ Summary example() {
       .depth = 1e-4, .time = 2e-5, .place = {0.1, 0.2}, .body = "beam", .into = "stop", .stiffness = 1e9};
   s.stop_reason = "end_time";
   s.masses["beam"] = 3.14;
+  s.bodies = {{.name = "beam", .rigid = false, .elements = 12800, .nodes = 6601}, {.name = "anvil", .rigid = true}};
+  s.obstacles = {"stop", "wall"};
+  s.observed["corner"] = {.on = "node", .body = "beam", .number = 80};
+  s.observed["top"] = {.on = "element", .body = "beam", .number = 6720};
+  s.started = "2025-07-01T12:34:56Z";
+  s.machine = {.processor = "a processor", .threads = 16};
   s.ledger.kinetic = 1.0 / 3;
   s.momentum.start = {0, -251.2};
   s.time_step.limited_by = "beam element 1873";
@@ -63,6 +69,18 @@ TEST_CASE("a summary reads back equal") {
   CHECK(std::isnan(read.contacts.at("stop").episodes.at(1).tangential_restitution));
   CHECK(read.contacts.at("stop").episodes.at(1).spin_after.empty());
   CHECK(read.reasons.size() == 2);
+  REQUIRE(read.bodies.size() == 2);
+  CHECK(read.bodies[0].elements == 12800);
+  CHECK(read.bodies[0].nodes == 6601);
+  CHECK(read.bodies[1].name == "anvil");
+  CHECK(read.bodies[1].rigid);
+  CHECK(read.obstacles == std::vector<std::string>{"stop", "wall"});
+  CHECK(read.observed.at("corner").on == "node");
+  CHECK(read.observed.at("top").body == "beam");
+  CHECK(read.observed.at("top").number == 6720);
+  CHECK(read.started == written.started);
+  CHECK(read.machine.processor == "a processor");
+  CHECK(read.machine.threads == 16);
   CHECK(read.warnings == std::vector<std::string>{"deep"});
   CHECK(read.deepest_penetration.place == Vec2{0.1, 0.2});
   CHECK(read.deepest_penetration.into == "stop");
@@ -71,10 +89,27 @@ TEST_CASE("a summary reads back equal") {
 TEST_CASE("the names that scripts rely on") {
   const auto json = nlohmann::json::parse(to_json(example()));
   CHECK(json.at("schema") == 1);
-  for (const char* name :
-       {"elements", "nodes", "steps", "threads", "wall_seconds", "stepping_seconds", "element_steps_per_second",
-        "end_time", "energy_error", "momentum_error", "penetration_ratio", "deepest_penetration", "verdict", "reasons",
-        "warnings", "stop_reason"}) {
+  for (const char* name : {"started",
+                           "machine",
+                           "bodies",
+                           "obstacles",
+                           "observed",
+                           "elements",
+                           "nodes",
+                           "steps",
+                           "threads",
+                           "wall_seconds",
+                           "stepping_seconds",
+                           "element_steps_per_second",
+                           "end_time",
+                           "energy_error",
+                           "momentum_error",
+                           "penetration_ratio",
+                           "deepest_penetration",
+                           "verdict",
+                           "reasons",
+                           "warnings",
+                           "stop_reason"}) {
     CHECK(json.contains(name));
   }
   for (const char* name : {"min", "max", "max_abs", "last"}) {

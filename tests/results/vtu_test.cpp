@@ -63,6 +63,25 @@ TEST_CASE("a frame reads back equal, over many compressed blocks and over none")
   CHECK(parse_vtu(to_vtu({})) == VtuGrid{});
 }
 
+TEST_CASE("of a frame only what is wanted is read") {
+  const Scratch folder;
+  const VtuGrid grid = example(16, 64);
+  write_vtu(folder / "a.vtu", grid);
+  const VtuGrid part = read_vtu(folder / "a.vtu", {.fields = {"velocity_m_per_s", "flows_now", "nothing"}});
+  CHECK(part.time == grid.time);
+  CHECK(part.points == grid.points);
+  CHECK(part.point_fields == grid.point_fields);
+  REQUIRE(part.cell_fields.size() == 1);
+  CHECK(part.cell_fields[0] == grid.cell_fields.back());
+  CHECK(part.corners.empty());
+  CHECK(part.ends.empty());
+  const VtuGrid cells = read_vtu(folder / "a.vtu", {.fields = {}, .cells = true});
+  CHECK(cells.corners == grid.corners);
+  CHECK(cells.ends == grid.ends);
+  CHECK(cells.kinds == grid.kinds);
+  CHECK(cells.cell_fields.empty());
+}
+
 TEST_CASE("outlines of obstacles read back equal") {
   VtuGrid grid;
   grid.add_polygon(std::vector<Vec2>{{0, 0}, {1, 0}, {1, 1}, {0, 1}});

@@ -14,6 +14,7 @@ struct RunArguments {
   std::vector<std::string> assignments;  ///< of --set
   std::string output;                    ///< empty: runs/<case>, or the next free runs/<case>-2, ...
   bool force = false;
+  bool no_report = false;
   int threads = 0;
 };
 

@@ -21,6 +21,7 @@ constexpr const char* footer = R"(Examples:
   udar check cases/short-beam/short-beam.toml
   udar run cases/short-beam/short-beam.toml
   udar run cases/short-beam/short-beam.toml --set bodies.beam.mesh.element_size="1 cm" --output runs/coarse
+  udar report runs/short-beam --limit "5 MB"
   udar keys friction
 
 Exit codes:
@@ -91,6 +92,8 @@ ExitCode refuse(const CLI::App& app, const CLI::ParseError& error) {
     message = "a command is needed: " + one_of(commands);
   } else if (message == "CASE is required") {
     message = "a case file is needed";
+  } else if (message == "RUN is required") {
+    message = "the folder of a run is needed";
   }
   fmt::print(stderr, "error: {}\n  = {}\n", message, cure);
   return ExitCode::usage;
@@ -115,6 +118,7 @@ ExitCode run_program(int count, char** words) {
   run_app->add_option("--output", run.output, "Folder of the results; else runs/CASE, runs/CASE-2, ...")
       ->type_name("DIR");
   run_app->add_flag("--force", run.force, "Replace the results of an earlier run in that folder");
+  run_app->add_flag("--no-report", run.no_report, "Leave no report.html, as `[output] report = false` does");
   run_app->add_option("--threads", run.threads, "Number of threads, 1 to 1024; else what serves the size of the case")
       ->type_name("N")
       ->check(CLI::Range(1, 1024).description(""));

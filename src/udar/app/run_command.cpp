@@ -1,12 +1,16 @@
+#include <unistd.h>
+
 #include <algorithm>
 #include <csignal>
 #include <ctime>
 #include <filesystem>
 #include <functional>
+#include <new>
 
 #include "udar/app/commands.hpp"
 #include "udar/app/status_line.hpp"
 #include "udar/app/terminal.hpp"
+#include "udar/report/report.hpp"
 #include "udar/results/file.hpp"
 #include "udar/results/run_folder.hpp"
 #include "udar/simulation/simulation.hpp"
@@ -86,19 +90,59 @@ void print_contacts(const Summary& summary) {
   if (hidden > 0) say("and {} with less force, all in summary.json\n", hidden);
 }
 
-void print_result(const Summary& s, const fs::path& folder) {
+/// What became of report.html.
+struct Made {
+  bool report = false;
+  bool interrupted = false;
+  std::vector<std::string> notes;  ///< what was left out of it, or why there is none
+};
+
+/// Makes report.html. Where that fails the run is as good as without it, and says so.
+Made make_report(const fs::path& folder) {
+  const bool terminal = isatty(STDOUT_FILENO) == 1;
+  if (terminal) {
+    say("making report.html ...");
+    flush_terminal();
+  }
+  Made made;
+  const int before = caught_signal;  // a run that was interrupted has a report too
+  try {
+    ReportOptions options;
+    options.interrupted = [before] { return caught_signal != before; };
+    const ReportInfo info = write_report(folder, options);
+    made.interrupted = info.path.empty();
+    made.report = !made.interrupted;
+    made.notes = info.left_out;
+    if (made.interrupted) made.notes.emplace_back("no report.html: interrupted; `udar report` makes it");
+  } catch (const UserError& error) {
+    const Diagnostic& reason = error.diagnostics.front();
+    made.notes.push_back("no report.html: " + reason.message);
+    made.notes.push_back("  = " + reason.cure);
+  } catch (const OutputError& error) {
+    made.notes.push_back(fmt::format("no report.html: {}", error.what()));
+  } catch (const std::bad_alloc&) {
+    made.notes.emplace_back("no report.html: not enough memory");
+  }
+  if (terminal) say("\r\x1b[K");
+  return made;
+}
+
+void print_result(const Summary& s, const fs::path& folder, const Made& made) {
   print_contacts(s);
   say("\n{} elements x {} in {}: {} element-steps/s, {}\n", s.elements, counted(s.steps, "step"),
       in_units(s.stepping_seconds, "s"), in_units(s.element_steps_per_second, ""), counted(s.threads, "thread"));
   const std::string warnings =
       s.warnings.empty() ? "" : fmt::format(" ({})", counted(static_cast<long long>(s.warnings.size()), "warning"));
   say("verdict: {}{}   energy {:.2g} %   momentum {:.1g}   penetration {:.2g} % of element   -> {}\n", s.verdict,
-      warnings, 100 * s.energy_error, s.momentum_error, 100 * s.penetration_ratio, folder.string());
+      warnings, 100 * s.energy_error, s.momentum_error, 100 * s.penetration_ratio,
+      (made.report ? folder / RunFolder::report : folder).string());
   const bool told_as_error = s.stop_reason == "numerical" || s.stop_reason == "disk";
   for (std::size_t k = told_as_error ? 1 : 0; k < s.reasons.size(); ++k) say("  {}\n", s.reasons[k]);
   for (const std::string& warning : s.warnings) say("  warning: {}\n", warning);
+  for (const std::string& note : made.notes) say("  {}\n", note);
   std::error_code error;
-  if (fs::exists(folder / RunFolder::final_picture, error)) say("  look at final.svg in a browser");
+  const std::string_view picture = made.report ? RunFolder::report : RunFolder::final_picture;
+  if (fs::exists(folder / picture, error)) say("  look at {} in a browser", picture);
   if (fs::exists(folder / RunFolder::fields_index, error)) say(", at fields.pvd in ParaView (Apply, then play)");
   say("; numbers are in summary.json and histories/\n");
 }
@@ -147,8 +191,12 @@ ExitCode run_command(const RunArguments& arguments) {
     flush_terminal();
     fmt::print(stderr, "error: {}\n", summary.reasons.front());
   }
-  print_result(summary, *options.folder);
-  return exit_code_of(summary);
+  Made made;
+  if (simulation.input().output.report && !arguments.no_report) made = make_report(*options.folder);
+  print_result(summary, *options.folder, made);
+  const ExitCode code = exit_code_of(summary);
+  if (code != ExitCode::done || !made.interrupted) return code;
+  return caught_signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted;
 }
 
 }  // namespace udar

@@ -118,6 +118,7 @@ struct OutputCase {
   std::optional<double> fields_every;     ///< s
   std::vector<double> fields_at;          ///< s
   std::optional<double> histories_every;  ///< s; none: a thousandth of the run
+  bool report = true;                     ///< report.html at the end of `udar run`
 };
 
 struct Case {

@@ -332,6 +332,8 @@ const Schema<OutputCase>& output_schema() {
           key("histories_every", &O::histories_every, QuantityOrWordKind{positive_time, "auto"},
               "from one line of the histories to the next; automatic: a thousandth of the run", Need::optional,
               "\"1 us\""),
+          key("report", &O::report, YesNoKind{},
+              "`udar run` leaves `report.html`, one page that shows the run in a browser"),
       }};
   return schema;
 }

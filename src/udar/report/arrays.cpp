@@ -6,6 +6,7 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <new>
 #include <type_traits>
@@ -56,6 +57,13 @@ PackedArray packed(std::span<const Number> numbers, std::size_t columns) {
   return out;
 }
 
+/// Is it a number that low + step q can reach? Nothing that moves is as large as this limit.
+template <class Value>
+bool is_number(Value value) {
+  constexpr double largest = 0.5 * std::numeric_limits<double>::max();
+  return std::fabs(static_cast<double>(value)) < largest;  // not so for NaN
+}
+
 struct Range {
   double low = 0;
   double high = 0;
@@ -67,7 +75,7 @@ Range range_of(std::span<const Value> values) {
   Range range;
   bool any = false;
   for (const Value value : values) {
-    if (!std::isfinite(value)) {
+    if (!is_number(value)) {
       range.has_none = true;
     } else if (!any) {
       range.low = range.high = value;
@@ -86,21 +94,19 @@ PackedArray rounded(std::span<const Value> values, std::size_t columns, int bits
   const Range range = range_of(values);
   auto most = static_cast<Number>(none >> (8 * static_cast<int>(sizeof(Number)) - bits));
   if (range.has_none && most == none) --most;
-  // Halves, since the difference of two huge numbers may be beyond all numbers.
-  const double half_low = 0.5 * range.low;
-  const double half_step = (0.5 * range.high - half_low) / most;
+  const double step = (range.high - range.low) / most;
   std::vector<Number> numbers(values.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (!std::isfinite(values[i])) {
+    if (!is_number(values[i])) {
       numbers[i] = none;
-    } else if (half_step > 0) {
-      const double q = (0.5 * values[i] - half_low) / half_step + 0.5;  // cut to the whole number below
+    } else if (step > 0) {
+      const double q = (values[i] - range.low) / step + 0.5;  // cut to the whole number below
       numbers[i] = static_cast<Number>(std::clamp(q, 0.0, static_cast<double>(most)));
     }
   }
   PackedArray out = packed<Number>(numbers, columns);
   out.low = range.low;
-  out.step = 2 * half_step;
+  out.step = step;
   if (range.has_none) out.none = none;
   return out;
 }

@@ -192,6 +192,7 @@ class Report {
         Ladder ladder(Wish(mesh_, options_, run_.frames.size()).choice, run_.frames.size(), options_.fields);
         return fit(ladder);
       } catch (const BrokenFrame& broken) {
+        blocks_.cut(fixed_blocks_);
         run_.troubles.emplace_back(broken.what());
         run_.frames.erase(run_.frames.begin() + static_cast<std::ptrdiff_t>(broken.frame));
       }
@@ -227,15 +228,13 @@ class Report {
   /// Goes down the ladder until the file is within the limit.
   ReportInfo fit(Ladder& ladder) {
     const FrameEncoder encoder(run_, mesh_, options_.interrupted);
+    const std::size_t fixed = size_without_frames();
     std::optional<Costs> costs;
-    double pessimism = 1;
-    const auto expected = [&] {
-      const double frames = estimate(*costs, ladder.choice(), run_.frames.size());
-      return pessimism * frames + static_cast<double>(size_without_frames());
-    };
+    double pessimism = 1;  // how many times the frames took what was expected
+    const auto expected = [&] { return pessimism * estimate(*costs, ladder.choice(), run_.frames.size()); };
     const auto step_down = [&](bool at_least_once) {
       if (!costs) costs = encoder.measure(ladder.choice());
-      while (at_least_once || expected() > static_cast<double>(options_.limit)) {
+      while (at_least_once || static_cast<double>(fixed) + expected() > static_cast<double>(options_.limit)) {
         at_least_once = false;
         if (!ladder.step()) return false;
       }
@@ -243,21 +242,20 @@ class Report {
     };
     // Numbers take less than a byte each, most often; where that may not do, a sample tells.
     const std::size_t numbers = encoder.numbers_in_frame(ladder.choice()) * run_.frames.size();
-    bool possible = numbers <= options_.limit || step_down(false);
+    bool possible = fixed + numbers <= options_.limit || step_down(false);
     while (possible) {
-      blocks_.cut(fixed_blocks_);
       if (const auto frames = encoder.encode(ladder.choice(), blocks_, options_.limit)) {
         const std::string text = described(*frames, ladder);
         const std::size_t bytes = size_with(text);
         if (bytes <= options_.limit) return put(text, bytes, ladder);
-        if (costs) pessimism = std::max(pessimism, pessimism * static_cast<double>(bytes) / expected());
+        if (costs && expected() > 0) pessimism *= std::max(1.0, static_cast<double>(bytes - fixed) / expected());
       }
+      blocks_.cut(fixed_blocks_);
       possible = step_down(true);
     }
-    blocks_.cut(fixed_blocks_);
     throw UserError(ExitCode::usage,
                     fmt::format("a report of {} cannot hold this run: {} are needed without any frame",
-                                megabytes(options_.limit), megabytes(size_without_frames())),
+                                megabytes(options_.limit), megabytes(fixed)),
                     "give it more with --limit");
   }
 
@@ -312,9 +310,9 @@ class Report {
 ReportInfo write_report(const fs::path& run, const ReportOptions& options) {
   RunFiles files = find_run_files(run);
   if (options.page.empty() && viewer_page().empty()) {
-    throw UserError(ExitCode::output, "report.html needs the viewer, which was not built into this program",
-                    "where Node.js is installed (`apt install nodejs npm`), scripts/setup or scripts/run builds it; "
-                    "then `udar report RUN` makes the page");
+    throw UserError(ExitCode::output, "the page needs the viewer, which was not built into this program",
+                    "scripts/run builds it where Node.js is installed (`apt install nodejs npm`); then `udar report "
+                    "RUN` makes the page");
   }
   try {
     return Report(std::move(files), options).write();
