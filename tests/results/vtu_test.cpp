@@ -80,6 +80,11 @@ TEST_CASE("of a frame only what is wanted is read") {
   CHECK(cells.ends == grid.ends);
   CHECK(cells.kinds == grid.kinds);
   CHECK(cells.cell_fields.empty());
+  const VtuGrid field = read_vtu(folder / "a.vtu", {.fields = {"exact"}, .places = false});
+  CHECK(field.points.empty());
+  CHECK(field.cell_fields.at(0) == grid.cell_fields.at(1));
+  CHECK(vtu_fields(folder / "a.vtu") ==
+        std::vector<std::string>{"velocity_m_per_s", "plastic_strain", "exact", "element", "flows_now"});
 }
 
 TEST_CASE("outlines of obstacles read back equal") {

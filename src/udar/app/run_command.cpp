@@ -154,14 +154,13 @@ ExitCode exit_code_of(const Summary& s) {
   return caught_signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted;
 }
 
-}  // namespace
-
-ExitCode run_command(const RunArguments& arguments) {
+/// Runs the case. Its memory is free again at the end.
+Summary compute(const RunArguments& arguments, RunOptions& options, bool& report) {
   std::vector<Diagnostic> warnings;
   Simulation simulation(load_case(arguments.case_file, arguments.assignments, &warnings));
   print_warnings(warnings);
+  report = simulation.input().output.report && !arguments.no_report;
 
-  RunOptions options;
   options.case_name = fs::path(arguments.case_file).stem().string();
   options.folder = folder_for(arguments, options.case_name);
   options.force = arguments.force;
@@ -185,14 +184,23 @@ ExitCode run_command(const RunArguments& arguments) {
     }
     status.update(m, state);
   });
-  const Summary summary = simulation.run(options);
+  Summary summary = simulation.run(options);
   status.finish(model, simulation.state());
+  return summary;
+}
+
+}  // namespace
+
+ExitCode run_command(const RunArguments& arguments) {
+  RunOptions options;
+  bool report = false;
+  const Summary summary = compute(arguments, options, report);
   if (summary.stop_reason == "numerical" || summary.stop_reason == "disk") {
     flush_terminal();
     fmt::print(stderr, "error: {}\n", summary.reasons.front());
   }
   Made made;
-  if (simulation.input().output.report && !arguments.no_report) made = make_report(*options.folder);
+  if (report) made = make_report(*options.folder);
   print_result(summary, *options.folder, made);
   const ExitCode code = exit_code_of(summary);
   if (code != ExitCode::done || !made.interrupted) return code;

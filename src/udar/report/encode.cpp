@@ -40,26 +40,40 @@ Json packed_forces(const NodeForces& forces, std::size_t first, Blocks& blocks) 
 
 }  // namespace
 
-Wanted FrameEncoder::wanted(const Choice& choice) const {
-  Wanted out{.quantities = {}, .forces = choice.forces};
+std::vector<Quantity> FrameEncoder::quantities_of(const Choice& choice) {
+  std::vector<Quantity> out;
   for (const Quantity& q : all_quantities) {
-    if (q.word.empty() || choice.has(q.word)) out.quantities.push_back(q);
+    if (q.word.empty() || choice.has(q.word)) out.push_back(q);
   }
   return out;
 }
 
 std::size_t FrameEncoder::numbers_in_frame(const Choice& choice) const {
   std::size_t sum = 0;
-  for (const Quantity& q : wanted(choice).quantities) sum += q.on_nodes ? mesh_.nodes : mesh_.elements;
+  for (const Quantity& q : quantities_of(choice)) sum += count_of(q);
   return sum;
 }
 
-std::size_t FrameEncoder::frames_in_chunk(const Wanted& wanted) const {
+std::size_t FrameEncoder::frames_in_chunk() const {
   constexpr std::size_t usual = 25;
-  constexpr std::size_t most_numbers = std::size_t{1} << 27;  // 512 MB
-  std::size_t numbers = 1;
-  for (const Quantity& q : wanted.quantities) numbers += q.on_nodes ? mesh_.nodes : mesh_.elements;
-  return std::clamp<std::size_t>(most_numbers / numbers, 2, usual);
+  constexpr std::size_t most_numbers = std::size_t{1} << 25;  // of a quantity; 128 MB
+  return std::clamp<std::size_t>(most_numbers / std::max<std::size_t>(mesh_.elements, 1), 5, usual);
+}
+
+std::vector<Wanted> FrameEncoder::parts_of(const Choice& choice) const {
+  constexpr std::size_t most_numbers = std::size_t{1} << 22;  // 16 MB
+  std::vector<Wanted> parts{{.quantities = {}, .places = true, .forces = choice.forces}};
+  std::size_t numbers = 0;
+  for (const Quantity& q : quantities_of(choice)) {
+    const std::size_t more = count_of(q) * frames_in_chunk();
+    if (numbers + more > most_numbers && !q.field.empty()) {
+      parts.push_back({.quantities = {}, .places = false, .forces = false});
+      numbers = 0;
+    }
+    parts.back().quantities.push_back(q);
+    numbers += more;
+  }
+  return parts;
 }
 
 Chunk FrameEncoder::read(const std::vector<std::size_t>& frames, std::size_t begin, std::size_t end,
@@ -77,11 +91,11 @@ Chunk FrameEncoder::read(const std::vector<std::size_t>& frames, std::size_t beg
 }
 
 std::optional<Json> FrameEncoder::encode(const Choice& choice, Blocks& blocks, std::size_t most_bytes) const {
-  const Wanted what = wanted(choice);
+  const std::vector<Wanted> parts = parts_of(choice);
   const std::vector<std::size_t> frames = chosen_frames(run_.frames.size(), choice.every);
-  const std::size_t at_once = frames_in_chunk(what);
+  const std::size_t at_once = frames_in_chunk();
   Json quantities = Json::array();
-  for (const Quantity& q : what.quantities) {
+  for (const Quantity& q : quantities_of(choice)) {
     quantities.push_back(
         {{"name", q.name}, {"unit", q.unit}, {"on", q.on_nodes ? "nodes" : "elements"}, {"chunks", Json::array()}});
   }
@@ -89,72 +103,80 @@ std::optional<Json> FrameEncoder::encode(const Choice& choice, Blocks& blocks, s
   std::vector<double> centre_x;
   std::vector<double> centre_y;
   for (std::size_t first = 0; first < frames.size(); first += at_once) {
-    const Chunk chunk = read(frames, first, std::min(first + at_once, frames.size()), what);
-    for (std::size_t q = 0; q < what.quantities.size(); ++q) {
-      const std::size_t columns = what.quantities[q].on_nodes ? mesh_.nodes : mesh_.elements;
-      Json packed_chunk{{"first", first}};
-      packed_chunk.update(blocks.add(packed(what.quantities[q], chunk.values[q], columns, choice.bits)));
-      quantities[q]["chunks"].push_back(std::move(packed_chunk));
-      if (blocks.bytes() > most_bytes) return std::nullopt;
+    std::size_t number = 0;  // in `quantities`
+    for (const Wanted& part : parts) {
+      const Chunk chunk = read(frames, first, std::min(first + at_once, frames.size()), part);
+      for (std::size_t q = 0; q < part.quantities.size(); ++q) {
+        const Quantity& quantity = part.quantities[q];
+        Json packed_chunk{{"first", first}};
+        packed_chunk.update(blocks.add(packed(quantity, chunk.values[q], count_of(quantity), choice.bits)));
+        quantities[number++]["chunks"].push_back(std::move(packed_chunk));
+        if (blocks.bytes() > most_bytes) return std::nullopt;
+      }
+      if (part.forces) force_chunks.push_back(packed_forces(chunk.forces, first, blocks));
+      centre_x.insert(centre_x.end(), chunk.centre_x.begin(), chunk.centre_x.end());
+      centre_y.insert(centre_y.end(), chunk.centre_y.begin(), chunk.centre_y.end());
     }
-    if (what.forces) force_chunks.push_back(packed_forces(chunk.forces, first, blocks));
-    centre_x.insert(centre_x.end(), chunk.centre_x.begin(), chunk.centre_x.end());
-    centre_y.insert(centre_y.end(), chunk.centre_y.begin(), chunk.centre_y.end());
   }
   constexpr int centre_bits = 32;
   const std::size_t bodies = mesh_.bodies.size();
   Json out{{"quantities", std::move(quantities)}};
-  if (what.forces) out["forces"] = {{"unit", "N"}, {"chunks", std::move(force_chunks)}};
+  if (choice.forces) out["forces"] = {{"unit", "N"}, {"chunks", std::move(force_chunks)}};
   out["centre_x"] = blocks.add(pack_rounded(centre_x, bodies, centre_bits));
   out["centre_y"] = blocks.add(pack_rounded(centre_y, bodies, centre_bits));
   if (blocks.bytes() > most_bytes) return std::nullopt;
   return out;
 }
 
+namespace {
+
+/// Adds what a table of a quantity takes, whole and with every other row.
+void add_cost(const Quantity& quantity, const std::vector<float>& values, std::size_t columns, Cost& cost) {
+  const auto bytes = [&](std::span<const float> table, int bits) {
+    return static_cast<double>(block_bytes(packed(quantity, table, columns, bits).text.size()));
+  };
+  const bool one_way = quantity.bits > 0;
+  for (const int bits : field_bits) {
+    if (!one_way || bits == field_bits[0]) cost.bytes[bits] += bytes(values, bits);
+  }
+  if (one_way) {
+    for (const int bits : field_bits) cost.bytes[bits] = cost.bytes[field_bits[0]];
+  }
+  cost.halved += bytes(every_other_row(values, columns), field_bits.back());
+}
+
+}  // namespace
+
 Costs FrameEncoder::measure(const Choice& choice) const {
   constexpr std::size_t samples = 3;
-  const Wanted what = wanted(choice);
   const std::vector<std::size_t> frames = chosen_frames(run_.frames.size(), choice.every);
-  const std::size_t at_once = frames_in_chunk(what);
+  const std::size_t at_once = frames_in_chunk();
   const std::size_t chunks = (frames.size() + at_once - 1) / at_once;
   Costs costs;
-  std::map<std::string, double, std::less<>> halved;
+  Cost& forces = costs[std::string(contact_force_word)];
   double rows = 0;
   double rows_halved = 0;
   for (std::size_t s = 0; s < std::min(samples, chunks); ++s) {
     // In the middle of each third: an impact begins with nothing and may end so.
     const std::size_t first = chunks <= samples ? s * at_once : (2 * s + 1) * chunks / (2 * samples) * at_once;
-    const Chunk chunk = read(frames, first, std::min(first + at_once, frames.size()), what);
-    const std::size_t here = std::min(at_once, frames.size() - first);
-    rows += static_cast<double>(here);
-    rows_halved += static_cast<double>((here + 1) / 2);
-    for (std::size_t q = 0; q < what.quantities.size(); ++q) {
-      const Quantity& quantity = what.quantities[q];
-      const std::size_t columns = quantity.on_nodes ? mesh_.nodes : mesh_.elements;
-      const auto bytes = [&](std::span<const float> values, int bits) {
-        return static_cast<double>(block_bytes(packed(quantity, values, columns, bits).text.size()));
-      };
-      Cost& cost = costs[std::string(quantity.name)];
-      for (const int bits : field_bits) {
-        if (quantity.bits > 0 && bits != field_bits[0]) {
-          cost.bytes[bits] = cost.bytes[field_bits[0]];
-        } else {
-          cost.bytes[bits] += bytes(chunk.values[q], bits);
-        }
+    const std::size_t end = std::min(first + at_once, frames.size());
+    rows += static_cast<double>(end - first);
+    rows_halved += static_cast<double>((end - first + 1) / 2);
+    for (const Wanted& part : parts_of(choice)) {
+      const Chunk chunk = read(frames, first, end, part);
+      for (std::size_t q = 0; q < part.quantities.size(); ++q) {
+        const Quantity& quantity = part.quantities[q];
+        add_cost(quantity, chunk.values[q], count_of(quantity), costs[std::string(quantity.name)]);
       }
-      halved[std::string(quantity.name)] += bytes(every_other_row(chunk.values[q], columns), field_bits.back());
-    }
-    Blocks blocks;
-    const std::size_t description = packed_forces(chunk.forces, 0, blocks).dump().size();
-    for (const int bits : field_bits) {
-      costs[std::string(contact_force_word)].bytes[bits] += static_cast<double>(blocks.bytes() + description);
+      if (!part.forces) continue;
+      Blocks blocks;
+      const std::size_t description = packed_forces(chunk.forces, 0, blocks).dump().size();
+      for (const int bits : field_bits) forces.bytes[bits] += static_cast<double>(blocks.bytes() + description);
     }
   }
   for (auto& [name, cost] : costs) {
     for (auto& [bits, bytes] : cost.bytes) bytes /= rows;
-    const auto at = halved.find(name);
-    if (at == halved.end()) continue;
-    cost.growth = std::max(1.0, at->second / rows_halved / cost.bytes[field_bits.back()]);
+    if (cost.halved > 0) cost.growth = std::max(1.0, cost.halved / rows_halved / cost.bytes[field_bits.back()]);
   }
   return costs;
 }
@@ -165,7 +187,8 @@ double estimate(const Costs& costs, const Choice& choice, std::size_t frames) {
   double sum = 0;
   const auto add = [&](std::string_view name) {
     const auto at = costs.find(name);
-    if (at != costs.end()) sum += at->second.bytes.at(choice.bits) * std::pow(at->second.growth, halvings) * count;
+    if (at != costs.end() && !at->second.bytes.empty())
+      sum += at->second.bytes.at(choice.bits) * std::pow(at->second.growth, halvings) * count;
   };
   for (const Quantity& q : all_quantities) {
     if (q.word.empty() || choice.has(q.word)) add(q.name);

@@ -25,12 +25,14 @@ struct ReportInterrupted {};
 /// What a quantity costs in a frame, from a sample of the frames.
 struct Cost {
   std::map<int, double> bytes;  ///< of a frame in the file, by bits
-  double growth = 1;            ///< how many times that is where every other frame is left out: they differ more
+  double halved = 0;            ///< of the sample where every other frame is left out
+  double growth = 1;            ///< how many times a frame then takes as much: those that are left differ more
 };
 /// By name of quantity and, for forces, contact_force_word.
 using Costs = std::map<std::string, Cost, std::less<>>;
 
-/// Turns the frames of a run into blocks of a report. Holds at most a chunk of frames.
+/// Turns the frames of a run into blocks of a report. Of the frames it holds a chunk of one quantity, or of a few where
+/// they are small: about as much memory as the run itself took.
 class FrameEncoder {
  public:
   FrameEncoder(const RunFiles& run, const ReportMesh& mesh, std::function<bool()> interrupted)
@@ -45,8 +47,11 @@ class FrameEncoder {
   [[nodiscard]] std::size_t numbers_in_frame(const Choice& choice) const;
 
  private:
-  [[nodiscard]] Wanted wanted(const Choice& choice) const;
-  [[nodiscard]] std::size_t frames_in_chunk(const Wanted& wanted) const;
+  [[nodiscard]] static std::vector<Quantity> quantities_of(const Choice& choice);
+  [[nodiscard]] std::size_t count_of(const Quantity& q) const { return q.on_nodes ? mesh_.nodes : mesh_.elements; }
+  [[nodiscard]] std::size_t frames_in_chunk() const;
+  /// What is read at once, one part after the other; places and forces with the first.
+  [[nodiscard]] std::vector<Wanted> parts_of(const Choice& choice) const;
   [[nodiscard]] Chunk read(const std::vector<std::size_t>& frames, std::size_t begin, std::size_t end,
                            const Wanted& wanted) const;
 

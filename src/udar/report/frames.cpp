@@ -104,7 +104,7 @@ void add_places(const VtuGrid& grid, const ReportMesh& mesh, const Wanted& wante
 }  // namespace
 
 ReportMesh read_mesh(const FrameFiles& frame) {
-  VtuGrid grid = read_vtu(frame.bodies);
+  const VtuGrid grid = read_vtu(frame.bodies, {.fields = {"node_number", "element_number", "body"}, .cells = true});
   ReportMesh mesh{.nodes = grid.points.size(), .elements = grid.ends.size()};
   check(grid.corners.size() == 3 * mesh.elements, frame.bodies, "not all cells are triangles");
   mesh.corners.resize(grid.corners.size());
@@ -123,21 +123,20 @@ ReportMesh read_mesh(const FrameFiles& frame) {
     body = {body.node_end, nodes[b], body.element_end, elements[b]};
     mesh.bodies.push_back(body);
   }
-  for (const auto& fields : {grid.point_fields, grid.cell_fields}) {
-    for (const VtuArray& field : fields) mesh.fields.push_back(field.name);
-  }
+  mesh.fields = vtu_fields(frame.bodies);
   return mesh;
 }
 
 void add_frame(const FrameFiles& frame, const ReportMesh& mesh, const Wanted& wanted, Chunk& chunk) {
-  VtuPart part;
+  VtuPart part{.fields = {}, .places = wanted.places};
   for (const Quantity& q : wanted.quantities) part.fields.emplace_back(q.field);
   if (wanted.forces) part.fields.emplace_back(force_field);
   const VtuGrid grid = read_vtu(frame.bodies, part);
-  check(grid.points.size() == mesh.nodes, frame.bodies, "it has other nodes than the first frame");
-
   chunk.values.resize(wanted.quantities.size());
-  add_places(grid, mesh, wanted, chunk);
+  if (wanted.places) {
+    check(grid.points.size() == mesh.nodes, frame.bodies, "it has other nodes than the first frame");
+    add_places(grid, mesh, wanted, chunk);
+  }
   for (std::size_t q = 0; q < wanted.quantities.size(); ++q) {
     const Quantity& quantity = wanted.quantities[q];
     if (quantity.field.empty()) continue;
@@ -147,7 +146,7 @@ void add_frame(const FrameFiles& frame, const ReportMesh& mesh, const Wanted& wa
     const std::size_t before = chunk.values[q].size();
     add_component(*field, quantity.component, chunk.values[q]);
     check(chunk.values[q].size() - before == (quantity.on_nodes ? mesh.nodes : mesh.elements), frame.bodies,
-          "it has other elements than the first frame");
+          "it has other nodes or elements than the first frame");
   }
   if (!wanted.forces) return;
   const VtuArray* field = find(grid.point_fields, force_field);

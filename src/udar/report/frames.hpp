@@ -52,6 +52,7 @@ struct Chunk {
 /// What shall be read.
 struct Wanted {
   std::vector<Quantity> quantities;
+  bool places = true;  ///< the middles of the bodies; with them the quantities that are places
   bool forces = true;
 };
 

@@ -157,6 +157,26 @@ std::string read_file(const fs::path& path, std::size_t most_bytes) {
   }
 }
 
+PartReader::PartReader(fs::path path) : path_(std::move(path)) {
+  file_ = Descriptor(retry([&] { return ::open(path_.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); }));
+  struct stat found {};
+  if (!file_.is_open() || ::fstat(file_.number(), &found) < 0) fail("open", path_, errno);
+  if (S_ISREG(found.st_mode)) size_ = static_cast<std::size_t>(found.st_size);
+}
+
+std::string PartReader::read(std::size_t at, std::size_t count) const {
+  std::string bytes(at < size_ ? std::min(count, size_ - at) : 0, '\0');
+  for (std::size_t done = 0; done < bytes.size();) {
+    const ssize_t got = retry([&] {
+      return ::pread(file_.number(), bytes.data() + done, bytes.size() - done, static_cast<off_t>(at + done));
+    });
+    if (got < 0) fail("read", path_, errno);
+    if (got == 0) bytes.resize(done);  // it has become shorter
+    done += static_cast<std::size_t>(got);
+  }
+  return bytes;
+}
+
 AppendFile::AppendFile(fs::path path) : path_(std::move(path)) {
   const int flags = O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC;
   file_ = Descriptor(retry([&] { return ::open(path_.c_str(), flags, 0666); }));

@@ -35,6 +35,21 @@ class Descriptor {
   int number_ = -1;
 };
 
+/// A file of which parts are read. Every call throws OutputError when it fails.
+class PartReader {
+ public:
+  explicit PartReader(std::filesystem::path path);
+  /// Bytes of the file when it was opened.
+  [[nodiscard]] std::size_t size() const { return size_; }
+  /// `count` bytes from byte `at` on; fewer where the file ends.
+  [[nodiscard]] std::string read(std::size_t at, std::size_t count) const;
+
+ private:
+  std::filesystem::path path_;
+  Descriptor file_;
+  std::size_t size_ = 0;
+};
+
 /// Makes a file piece by piece, all or nothing as `write_file` does. Every call throws OutputError when it fails.
 class FileReplacement {
  public:

@@ -122,12 +122,15 @@ std::string to_vtu(const VtuGrid& grid);
 VtuGrid read_vtu(const std::filesystem::path& path);
 VtuGrid parse_vtu(std::string_view bytes);
 
-/// What of a frame is wanted beside its time and places; nothing else is unpacked.
+/// What of a frame is wanted beside its time; nothing else is read.
 struct VtuPart {
   std::vector<std::string> fields;  ///< names, on points or cells; those that are not there are passed over
-  bool cells = false;               ///< corners, ends and kinds too
+  bool places = true;               ///< the points
+  bool cells = false;               ///< corners, ends and kinds; with the points only
 };
 
 VtuGrid read_vtu(const std::filesystem::path& path, const VtuPart& part);
+/// Names of the fields that a frame has, on points first. Throws OutputError.
+std::vector<std::string> vtu_fields(const std::filesystem::path& path);
 
 }  // namespace udar

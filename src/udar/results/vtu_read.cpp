@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 
 #include "udar/base/error.hpp"
 #include "udar/results/file.hpp"
@@ -71,13 +72,36 @@ VtuValues read_values(std::string_view type, std::string_view data, std::size_t 
   return read_values<std::uint8_t>(data, count);
 }
 
+/// What lies behind the `_`: in memory, or in a file of which only the arrays that are wanted are read.
+struct AppendedData {
+  std::size_t size = 0;
+  std::function<std::string(std::size_t at, std::size_t count)> read;  ///< fewer bytes where the data end
+
+  /// An array with its header: how many blocks, how long each is, the blocks.
+  [[nodiscard]] std::string array(std::size_t at) const {
+    constexpr std::size_t word = sizeof(std::uint64_t);
+    check(at <= size, "an array has no data");
+    const std::string head = read(at, 3 * word);
+    const std::uint64_t block_count = DataReader{head}.number();
+    check(block_count <= (size - at) / word, "more blocks than bytes");
+    const std::string words = read(at + 3 * word, block_count * word);
+    std::size_t bytes = 3 * word + words.size();
+    for (DataReader sizes{words}; !sizes.data.empty();) {
+      const std::uint64_t block = sizes.number();
+      check(block <= size, "data ends early");
+      bytes = std::min(bytes + block, size);
+    }
+    return read(at, bytes);
+  }
+};
+
 struct GridReader {
-  std::string_view data;  ///< behind the `_`
+  AppendedData data;
   std::size_t point_count = 0;
   std::size_t cell_count = 0;
   /// Numbers that may still be unpacked. zlib packs up to 1032 to 1 and arrays may share their bytes: without a limit
   /// on the whole, 1 MB of lies costs many GB. Frames of Udar unpack to some ten times their size.
-  std::size_t budget = (std::size_t{1} << 23) + 8 * data.size();
+  std::size_t budget = (std::size_t{1} << 23) + 8 * data.size;
   VtuGrid grid{};
   const VtuPart* part = nullptr;  ///< none: everything
 
@@ -88,15 +112,15 @@ struct GridReader {
   [[nodiscard]] bool wants_cells() const { return part == nullptr || part->cells; }
 
   VtuArray read_array(const XmlTag& tag, std::size_t tuples) {
-    const std::size_t offset = tag.count("offset").value_or(data.size() + 1);
+    const std::size_t offset = tag.count("offset").value_or(data.size + 1);
     const std::size_t components =
         tag.attributes.contains("NumberOfComponents") ? tag.count("NumberOfComponents").value_or(0) : std::size_t{1};
-    check(tag.attribute("format") == "appended" && offset <= data.size(), "an array has no data");
+    check(tag.attribute("format") == "appended" && offset <= data.size, "an array has no data");
     check(components >= 1 && components <= 9, "an array has an impossible number of components");
     check(tuples <= budget / components, "a count is larger than the data can hold");
     budget -= tuples * components;
     return {tag.attribute("Name"), static_cast<int>(components),
-            read_values(tag.attribute("type"), data.substr(offset), tuples * components)};
+            read_values(tag.attribute("type"), data.array(offset), tuples * components)};
   }
 
   template <class Number>
@@ -140,21 +164,30 @@ struct GridReader {
     if (section == "FieldData" && tag.attribute("Name") == "TimeValue") grid.time = read_plain<double>(tag, 1)[0];
     if (section == "PointData" && wants_field(tag)) grid.point_fields.push_back(read_array(tag, point_count));
     if (section == "CellData" && wants_field(tag)) grid.cell_fields.push_back(read_array(tag, cell_count));
-    if (section == "Points") read_points(tag);
+    if (section == "Points" && (part == nullptr || part->places)) read_points(tag);
     if (section == "Cells" && wants_cells()) read_cells(tag);
   }
 
   XmlTag connectivity{};
 };
 
-VtuGrid parse_part(std::string_view bytes, const VtuPart* part) {
-  const std::size_t appended = bytes.find("<AppendedData encoding=\"raw\">");
-  const std::size_t start = bytes.find('_', appended);
-  check(appended != std::string_view::npos && start != std::string_view::npos, "there is no appended raw data");
+/// Where the appended data begin, and where in the text before them the XML ends.
+struct Layout {
+  std::size_t xml_end = 0;
+  std::size_t data_begin = 0;
+};
 
-  GridReader reader{.data = bytes.substr(start + 1)};
+Layout layout_of(std::string_view begin) {
+  const std::size_t appended = begin.find("<AppendedData encoding=\"raw\">");
+  const std::size_t start = begin.find('_', appended);
+  check(appended != std::string_view::npos && start != std::string_view::npos, "there is no appended raw data");
+  return {appended, start + 1};
+}
+
+VtuGrid read_grid(std::string_view xml, AppendedData data, const VtuPart* part) {
+  GridReader reader{.data = std::move(data)};
   reader.part = part;
-  XmlScanner scanner(bytes.substr(0, appended));
+  XmlScanner scanner(xml);
   std::string section;
   std::size_t pieces = 0;
   while (const std::optional<XmlTag> tag = scanner.next()) {
@@ -172,16 +205,23 @@ VtuGrid parse_part(std::string_view bytes, const VtuPart* part) {
       section = tag->closing ? "" : tag->name;
     }
   }
-  check(pieces == 1 && reader.grid.points.size() == reader.point_count, "points are missing");
+  check(pieces == 1, "there is not one piece");
+  const bool has_places = reader.grid.points.size() == reader.point_count;
+  check(has_places || (part != nullptr && !part->places), "points are missing");
   if (reader.wants_cells()) reader.read_connectivity();
   return std::move(reader.grid);
 }
 
+/// The beginning of a file, long enough to hold all XML that Udar writes.
+constexpr std::size_t head_bytes = std::size_t{1} << 15;
+
 VtuGrid read_part(const std::filesystem::path& path, const VtuPart* part) {
-  constexpr std::size_t most_bytes = std::size_t{4} << 30;
-  const std::string bytes = read_file(path, most_bytes);
+  const PartReader file(path);
   try {
-    return parse_part(bytes, part);
+    const std::string head = file.read(0, head_bytes);
+    const Layout layout = layout_of(head);
+    const auto read = [&](std::size_t at, std::size_t count) { return file.read(layout.data_begin + at, count); };
+    return read_grid(std::string_view(head).substr(0, layout.xml_end), {file.size() - layout.data_begin, read}, part);
   } catch (const OutputError& error) {
     throw OutputError(fmt::format("cannot read {}: {}", path.string(), error.what()));
   }
@@ -189,8 +229,29 @@ VtuGrid read_part(const std::filesystem::path& path, const VtuPart* part) {
 
 }  // namespace
 
-VtuGrid parse_vtu(std::string_view bytes) { return parse_part(bytes, nullptr); }
+VtuGrid parse_vtu(std::string_view bytes) {
+  const Layout layout = layout_of(bytes);
+  const std::string_view data = bytes.substr(layout.data_begin);
+  const auto read = [&](std::size_t at, std::size_t count) {
+    return std::string(data.substr(std::min(at, data.size()), count));
+  };
+  return read_grid(bytes.substr(0, layout.xml_end), {data.size(), read}, nullptr);
+}
+
 VtuGrid read_vtu(const std::filesystem::path& path) { return read_part(path, nullptr); }
+std::vector<std::string> vtu_fields(const std::filesystem::path& path) {
+  const std::string head = PartReader(path).read(0, head_bytes);
+  std::vector<std::string> names;
+  std::string section;
+  XmlScanner scanner(std::string_view(head).substr(0, layout_of(head).xml_end));
+  while (const std::optional<XmlTag> tag = scanner.next()) {
+    if (tag->name != "DataArray") section = tag->closing ? "" : tag->name;
+    const bool field = tag->name == "DataArray" && (section == "PointData" || section == "CellData");
+    if (field) names.push_back(tag->attribute("Name"));
+  }
+  return names;
+}
+
 VtuGrid read_vtu(const std::filesystem::path& path, const VtuPart& part) { return read_part(path, &part); }
 
 }  // namespace udar
