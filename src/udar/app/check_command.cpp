@@ -1,15 +1,16 @@
 #include <sys/resource.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <span>
 
 #include "udar/app/commands.hpp"
 #include "udar/app/terminal.hpp"
-#include "udar/case/reference.hpp"
 #include "udar/output/summarise.hpp"
 #include "udar/simulation/last_good.hpp"
 #include "udar/simulation/simulation.hpp"
@@ -20,6 +21,9 @@ namespace udar {
 namespace {
 
 using std::chrono::steady_clock;
+
+constexpr const char* check_footer = R"(Example:
+  udar check cases/short-beam/short-beam.toml --set bodies.beam.mesh.element_size="0.5 cm")";
 
 /// One row of the report; rows of one kind say so only once.
 void row(std::string_view label, std::string_view name, const std::string& text) {
@@ -187,17 +191,15 @@ void print_cost(const Model& model, State& state, Workspace& work) {
   row("time", "", fmt::format("about {:.2g} s with {}, and what writing the fields takes", steps * each, threads));
 }
 
-}  // namespace
-
-ExitCode check_command(const RunArguments& arguments) {
+ExitCode describe_case(const CaseArguments& arguments) {
   std::vector<Diagnostic> warnings;
-  const Simulation simulation(load_case(arguments.case_file, arguments.assignments, &warnings));
+  const Simulation simulation(load_case(arguments.file, arguments.assignments, &warnings));
   const Model& model = simulation.model();
   Workspace work(model, threads_for(model));
   State state = start(model, work);
   print_warnings(warnings);
 
-  say("{}\n", std::filesystem::path(arguments.case_file).stem().string());
+  say("{}\n", std::filesystem::path(arguments.file).stem().string());
   row("run", "",
       fmt::format("0 to {}, {}, gravity ({:.4g}, {:.4g}) m/s^2", in_units(model.run.end_time, "s"),
                   rule_of(model.run.integrator).keyword, model.run.gravity.x, model.run.gravity.y));
@@ -212,9 +214,14 @@ ExitCode check_command(const RunArguments& arguments) {
   return ExitCode::done;
 }
 
-ExitCode keys_command(const std::string& filter) {
-  say_text(keys_text(filter));
-  return ExitCode::done;
+}  // namespace
+
+Command add_check(CLI::App& app) {
+  CLI::App* words = app.add_subcommand("check", "Find every mistake in a case and tell what a run would be like");
+  words->footer(check_footer);
+  const auto arguments = std::make_shared<CaseArguments>();
+  add_case_options(*words, *arguments);
+  return {words, [arguments] { return describe_case(*arguments); }};
 }
 
 }  // namespace udar

@@ -1,35 +1,36 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "udar/base/error.hpp"
 
+namespace CLI {
+class App;
+}
+
 namespace udar {
 
-/// The commands of the program. Each writes to the terminal and returns how it went; mistakes are thrown.
+/// A command of the program.
+struct Command {
+  CLI::App* words = nullptr;      ///< what it takes, as the parser knows it
+  std::function<ExitCode()> run;  ///< once the words are read: writes to the terminal, throws mistakes
+};
 
-struct RunArguments {
-  std::string case_file;
+/// Tells the parser about a command. Each stands in <name>_command.cpp; main.cpp lists them.
+using AddCommand = Command (*)(CLI::App& app);
+
+Command add_run(CLI::App& app);
+Command add_check(CLI::App& app);
+Command add_report(CLI::App& app);
+Command add_keys(CLI::App& app);
+
+/// A case and the changes made to it, as several commands take them.
+struct CaseArguments {
+  std::string file;
   std::vector<std::string> assignments;  ///< of --set
-  std::string output;                    ///< empty: runs/<case>, or the next free runs/<case>-2, ...
-  bool force = false;
-  bool no_report = false;
-  int threads = 0;
 };
-
-struct ReportArguments {
-  std::string run;                  ///< folder
-  std::string output;               ///< empty: report.html in it
-  std::string limit = "25 MB";      ///< of the file
-  std::vector<std::string> fields;  ///< empty: all
-  std::size_t frames = 0;           ///< at most; 0: all
-  std::string page;                 ///< a viewer to take instead of the one built in
-};
-
-ExitCode run_command(const RunArguments& arguments);
-ExitCode check_command(const RunArguments& arguments);
-ExitCode report_command(const ReportArguments& arguments);
-ExitCode keys_command(const std::string& filter);
+void add_case_options(CLI::App& command, CaseArguments& arguments);
 
 }  // namespace udar

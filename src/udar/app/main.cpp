@@ -1,6 +1,8 @@
 #include <malloc.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -30,41 +32,18 @@ Exit codes:
   2 wrong command line   5 stopped by a numerical      130, 143 stopped by Ctrl-C or SIGTERM
                            failure                       with everything saved)";
 
-constexpr const char* run_footer = R"(Examples:
-  udar run cases/short-beam/short-beam.toml
-  udar run cases/short-beam/short-beam.toml --set run.end_time="0.5 ms" --set output.fields_every="5 us"
-  udar run cases/short-beam/short-beam.toml --output runs/again --force
+/// What adds each command, in the order of the help.
+constexpr std::array add_commands{add_run, add_check, add_report, add_keys};
 
-Ctrl-C finishes the step and saves everything; a second one stops at once.)";
-
-constexpr const char* check_footer = R"(Example:
-  udar check cases/short-beam/short-beam.toml --set bodies.beam.mesh.element_size="0.5 cm")";
-
-constexpr const char* report_footer = R"(Examples:
-  udar report runs/short-beam
-  udar report runs/short-beam --limit "5 MB" --output short-beam.html
-  udar report runs/short-beam --fields plastic_strain,principal_1 --frames 50
-
-`udar run` makes the same file by itself; this is for old runs and other choices.)";
-
-constexpr const char* keys_footer = R"(Examples:
-  udar keys
-  udar keys friction)";
-
-const std::vector<std::string> commands{"run", "check", "report", "keys"};
-
-void add_case_options(CLI::App& command, RunArguments& arguments) {
-  command.add_option("CASE", arguments.case_file, "Case file, as docs/case-file.md tells")->required()->type_name("");
-  command
-      .add_option("--set", arguments.assignments,
-                  "Replace a value of the case, as often as needed: --set bodies.beam.thickness=\"2 cm\"")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
+std::vector<std::string> names_of(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+  return names;
 }
 
 /// What the user may have meant by a word that was not expected; "" where nothing is near.
 std::string meant(const CLI::App& app, const std::string& word) {
-  std::vector<std::string> known = commands;
+  std::vector<std::string> known = names_of(app);
   for (const CLI::App* command : app.get_subcommands()) {
     known.clear();
     for (const CLI::Option* option : command->get_options()) {
@@ -86,10 +65,10 @@ ExitCode refuse(const CLI::App& app, const CLI::ParseError& error) {
     if (!near.empty()) {
       cure = fmt::format("did you mean `{}`?", near);
     } else if (command) {
-      cure = "write " + one_of(commands);
+      cure = "write " + one_of(names_of(app));
     }
   } else if (chosen.empty()) {
-    message = "a command is needed: " + one_of(commands);
+    message = "a command is needed: " + one_of(names_of(app));
   } else if (message == "CASE is required") {
     message = "a case file is needed";
   } else if (message == "RUN is required") {
@@ -111,45 +90,8 @@ ExitCode run_program(int count, char** words) {
   app.get_formatter()->label("Positionals", "Arguments");
   app.get_formatter()->label("REQUIRED", "");
 
-  RunArguments run;
-  CLI::App* run_app = app.add_subcommand("run", "Compute a case and leave a folder with everything about it");
-  run_app->footer(run_footer);
-  add_case_options(*run_app, run);
-  run_app->add_option("--output", run.output, "Folder of the results; else runs/CASE, runs/CASE-2, ...")
-      ->type_name("DIR");
-  run_app->add_flag("--force", run.force, "Replace the results of an earlier run in that folder");
-  run_app->add_flag("--no-report", run.no_report, "Leave no report.html, as `[output] report = false` does");
-  run_app->add_option("--threads", run.threads, "Number of threads, 1 to 1024; else what serves the size of the case")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1024).description(""));
-
-  RunArguments check;
-  CLI::App* check_app = app.add_subcommand("check", "Find every mistake in a case and tell what a run would be like");
-  check_app->footer(check_footer);
-  add_case_options(*check_app, check);
-
-  ReportArguments report;
-  CLI::App* report_app = app.add_subcommand("report", "Make report.html of a run: one file that shows it in a browser");
-  report_app->footer(report_footer);
-  report_app->add_option("RUN", report.run, "Folder of a run")->required()->type_name("");
-  report_app->add_option("--limit", report.limit, "Size of the file at most; a plain number is in MB")
-      ->type_name("SIZE")
-      ->capture_default_str();
-  report_app->add_option("--fields", report.fields, "Only these fields: plastic_strain,principal_1")
-      ->type_name("NAME,...")
-      ->delimiter(',');
-  report_app->add_option("--frames", report.frames, "At most so many frames, 2 or more")
-      ->type_name("N")
-      ->check(CLI::Range(2, 1'000'000).description(""));
-  report_app->add_option("--output", report.output, "File to write; else report.html in the folder of the run")
-      ->type_name("FILE");
-  // For those who work on the viewer.
-  report_app->add_option("--template", report.page, "")->group("");
-
-  std::string filter;
-  CLI::App* keys_app = app.add_subcommand("keys", "List what a case file may say");
-  keys_app->footer(keys_footer);
-  keys_app->add_option("WORD", filter, "Only keys whose name or meaning contains this")->type_name("");
+  std::vector<Command> commands;
+  for (const AddCommand add : add_commands) commands.push_back(add(app));
 
   try {
     app.parse(count, words);
@@ -157,10 +99,9 @@ ExitCode run_program(int count, char** words) {
   } catch (const CLI::ParseError& error) {
     return error.get_exit_code() == 0 ? (app.exit(error), ExitCode::done) : refuse(app, error);
   }
-  if (run_app->parsed()) return run_command(run);
-  if (check_app->parsed()) return check_command(check);
-  if (report_app->parsed()) return report_command(report);
-  return keys_command(filter);
+  const auto chosen =
+      std::find_if(commands.begin(), commands.end(), [](const Command& c) { return c.words->parsed(); });
+  return chosen->run();
 }
 
 /// Runs the program and tells what it throws.

@@ -1,6 +1,8 @@
+#include <CLI/CLI.hpp>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <memory>
 
 #include "udar/app/commands.hpp"
 #include "udar/app/terminal.hpp"
@@ -9,6 +11,22 @@
 
 namespace udar {
 namespace {
+
+constexpr const char* footer = R"(Examples:
+  udar report runs/short-beam
+  udar report runs/short-beam --limit "5 MB" --output short-beam.html
+  udar report runs/short-beam --fields plastic_strain,principal_1 --frames 50
+
+`udar run` makes the same file by itself; this is for old runs and other choices.)";
+
+struct ReportArguments {
+  std::string run;                  ///< folder
+  std::string output;               ///< empty: report.html in it
+  std::string limit = "25 MB";      ///< of the file
+  std::vector<std::string> fields;  ///< empty: all
+  std::size_t frames = 0;           ///< at most; 0: all
+  std::string page;                 ///< a viewer to take instead of the one built in
+};
 
 /// "25 MB", "500 kB", "1.5 GB"; a plain number is in MB.
 std::size_t bytes_of(std::string_view text) {
@@ -31,9 +49,7 @@ std::size_t bytes_of(std::string_view text) {
                   "write it as \"25 MB\", \"500 kB\" or \"1.5 GB\"");
 }
 
-}  // namespace
-
-ExitCode report_command(const ReportArguments& arguments) {
+ExitCode report_run(const ReportArguments& arguments) {
   ReportOptions options;
   options.output = arguments.output;
   options.limit = bytes_of(arguments.limit);
@@ -47,6 +63,29 @@ ExitCode report_command(const ReportArguments& arguments) {
       counted(static_cast<long long>(info.frames), "frame"));
   for (const std::string& sentence : info.left_out) say("  {}\n", sentence);
   return ExitCode::done;
+}
+
+}  // namespace
+
+Command add_report(CLI::App& app) {
+  CLI::App* words = app.add_subcommand("report", "Make report.html of a run: one file that shows it in a browser");
+  words->footer(footer);
+  const auto arguments = std::make_shared<ReportArguments>();
+  words->add_option("RUN", arguments->run, "Folder of a run")->required()->type_name("");
+  words->add_option("--limit", arguments->limit, "Size of the file at most; a plain number is in MB")
+      ->type_name("SIZE")
+      ->capture_default_str();
+  words->add_option("--fields", arguments->fields, "Only these fields: plastic_strain,principal_1")
+      ->type_name("NAME,...")
+      ->delimiter(',');
+  words->add_option("--frames", arguments->frames, "At most so many frames, 2 or more")
+      ->type_name("N")
+      ->check(CLI::Range(2, 1'000'000).description(""));
+  words->add_option("--output", arguments->output, "File to write; else report.html in the folder of the run")
+      ->type_name("FILE");
+  // For those who work on the viewer.
+  words->add_option("--template", arguments->page, "")->group("");
+  return {words, [arguments] { return report_run(*arguments); }};
 }
 
 }  // namespace udar

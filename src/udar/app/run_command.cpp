@@ -1,10 +1,12 @@
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <csignal>
 #include <ctime>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <new>
 
 #include "udar/app/commands.hpp"
@@ -19,6 +21,21 @@ namespace udar {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* run_footer = R"(Examples:
+  udar run cases/short-beam/short-beam.toml
+  udar run cases/short-beam/short-beam.toml --set run.end_time="0.5 ms" --set output.fields_every="5 us"
+  udar run cases/short-beam/short-beam.toml --output runs/again --force
+
+Ctrl-C finishes the step and saves everything; a second one stops at once.)";
+
+struct RunArguments {
+  CaseArguments input;
+  std::string output;  ///< empty: runs/<case>, or the next free runs/<case>-2, ...
+  bool force = false;
+  bool no_report = false;
+  int threads = 0;
+};
 
 volatile std::sig_atomic_t caught_signal = 0;
 volatile std::sig_atomic_t caught_at = 0;  // s
@@ -50,8 +67,8 @@ fs::path folder_for(const RunArguments& arguments, const std::string& case_name)
 
 /// The command line that repeats the run.
 std::string command_text(const RunArguments& arguments) {
-  std::string text = "udar run " + arguments.case_file;
-  for (const std::string& assignment : arguments.assignments) text += " --set '" + assignment + "'";
+  std::string text = "udar run " + arguments.input.file;
+  for (const std::string& assignment : arguments.input.assignments) text += " --set '" + assignment + "'";
   return text;
 }
 
@@ -157,16 +174,16 @@ ExitCode exit_code_of(const Summary& s) {
 /// Runs the case. Its memory is free again at the end.
 Summary compute(const RunArguments& arguments, RunOptions& options, bool& report) {
   std::vector<Diagnostic> warnings;
-  Simulation simulation(load_case(arguments.case_file, arguments.assignments, &warnings));
+  Simulation simulation(load_case(arguments.input.file, arguments.input.assignments, &warnings));
   print_warnings(warnings);
   report = simulation.input().output.report && !arguments.no_report;
 
-  options.case_name = fs::path(arguments.case_file).stem().string();
+  options.case_name = fs::path(arguments.input.file).stem().string();
   options.folder = folder_for(arguments, options.case_name);
   options.force = arguments.force;
   options.threads = arguments.threads;
   constexpr std::size_t largest_case = 1 << 20;
-  options.case_text = read_file(arguments.case_file, largest_case);
+  options.case_text = read_file(arguments.input.file, largest_case);
   options.command = command_text(arguments);
   options.interrupted = [] { return caught_signal != 0; };
   std::signal(SIGINT, note_signal);
@@ -189,9 +206,7 @@ Summary compute(const RunArguments& arguments, RunOptions& options, bool& report
   return summary;
 }
 
-}  // namespace
-
-ExitCode run_command(const RunArguments& arguments) {
+ExitCode run_case(const RunArguments& arguments) {
   RunOptions options;
   bool report = false;
   const Summary summary = compute(arguments, options, report);
@@ -205,6 +220,25 @@ ExitCode run_command(const RunArguments& arguments) {
   const ExitCode code = exit_code_of(summary);
   if (code != ExitCode::done || !made.interrupted) return code;
   return caught_signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted;
+}
+
+}  // namespace
+
+Command add_run(CLI::App& app) {
+  CLI::App* words = app.add_subcommand("run", "Compute a case and leave a folder with everything about it");
+  words->footer(run_footer);
+  const auto arguments = std::make_shared<RunArguments>();
+  add_case_options(*words, arguments->input);
+  words->add_option("--output", arguments->output, "Folder of the results; else runs/CASE, runs/CASE-2, ...")
+      ->type_name("DIR");
+  words->add_flag("--force", arguments->force, "Replace the results of an earlier run in that folder");
+  words->add_flag("--no-report", arguments->no_report, "Leave no report.html, as `[output] report = false` does");
+  words
+      ->add_option("--threads", arguments->threads,
+                   "Number of threads, 1 to 1024; else what serves the size of the case")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1024).description(""));
+  return {words, [arguments] { return run_case(*arguments); }};
 }
 
 }  // namespace udar

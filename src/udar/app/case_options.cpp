@@ -1,0 +1,16 @@
+#include <CLI/CLI.hpp>
+
+#include "udar/app/commands.hpp"
+
+namespace udar {
+
+void add_case_options(CLI::App& command, CaseArguments& arguments) {
+  command.add_option("CASE", arguments.file, "Case file, as docs/case-file.md tells")->required()->type_name("");
+  command
+      .add_option("--set", arguments.assignments,
+                  "Replace a value of the case, as often as needed: --set bodies.beam.thickness=\"2 cm\"")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+}  // namespace udar
