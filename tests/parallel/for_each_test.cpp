@@ -57,6 +57,22 @@ TEST_CASE("what one loop writes the next one reads, many thousand times") {
   CHECK(a == std::vector<long>(blocks, 1 + rounds));
 }
 
+TEST_CASE("every job is done once, however long the others take") {
+  for (const int threads : {1, 2, 4}) {
+    Pool pool(threads);
+    for (const std::size_t jobs : {0, 1, 3, 50}) {
+      std::vector<int> visits(jobs);
+      pool.for_each_job(jobs, [&](std::size_t job) {
+        if (job == 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        ++visits[job];
+      });
+      CHECK(visits == std::vector<int>(jobs, 1));
+    }
+    CHECK_THROWS_AS(pool.for_each_job(9, [](std::size_t job) { throw std::out_of_range(std::to_string(job)); }),
+                    std::out_of_range);
+  }
+}
+
 TEST_CASE("threads that fell asleep wake up") {
   Pool pool(4);
   for (int round = 0; round < 5; ++round) {

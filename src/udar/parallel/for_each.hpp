@@ -59,6 +59,16 @@ class Pool {
     share_out({run, const_cast<void*>(static_cast<const void*>(std::addressof(f))), blocks});
   }
 
+  /// Calls f(job) for every job in 0 .. jobs - 1, which may differ in length: each thread takes the next one that
+  /// nobody has. What f throws is thrown here; the rest may be left out.
+  template <class F>
+  void for_each_job(std::size_t jobs, F&& f) {
+    std::atomic<std::size_t> next{0};
+    for_each_run(static_cast<std::size_t>(threads()), [&](std::size_t, std::size_t) {
+      for (std::size_t job = 0; (job = next.fetch_add(1, std::memory_order_relaxed)) < jobs;) f(job);
+    });
+  }
+
   /// Which run has a block of so many.
   [[nodiscard]] std::size_t run_of(std::size_t blocks, std::size_t block) const;
 
