@@ -481,6 +481,22 @@ class Disks(Program):
         self.assertIn("cannot write", summary["reasons"][0])
         self.assertLess(summary["end_time"], 0.01)
 
+    def test_a_limit_that_the_frames_reach_stops_the_run_with_a_message(self):
+        # Frames in every step, and soon their index is too long. It is written while the run goes on.
+        few = 60000
+        out, err = self.udar("run", "block.toml", "--set", "run.end_time=100 ms", "--set", "output.fields_every=1 ns",
+                             code=6, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (few, few)))
+        self.assertIn("error: cannot write runs/block/fields.pvd", err)
+        self.assertIn("ulimit -f", err)
+        self.assertIn("verdict: bad", out)
+        summary = self.summary("runs/block")
+        self.assertEqual(summary["stop_reason"], "disk")
+        self.assertLess(summary["end_time"], 0.1)
+        index = self.folder / "runs/block/fields.pvd"
+        if index.exists():  # as it was when it was last renewed
+            for name in re.findall(r'file="([^"]*)"', index.read_text()):
+                self.assertGreater((self.folder / "runs/block" / name).stat().st_size, 0)
+
     def test_a_disk_that_takes_nothing(self):
         _, err = self.udar("run", "block.toml", code=6,
                            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0)))

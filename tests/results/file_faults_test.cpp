@@ -82,15 +82,14 @@ TEST_CASE("whatever call fails, the file is old or new, and the failure is repor
   CHECK(failures == 5);
 }
 
-TEST_CASE("a file made in pieces can be written over before it is in its place") {
+TEST_CASE("a file made in pieces is there when it is whole, or never") {
   const Scratch folder;
   const std::filesystem::path path = folder / "a.txt";
   write_file(path, "old content");
   {
     FileReplacement file(path);
-    file.write("size: ? ");
+    file.write("size: 7 ");
     file.write("content");
-    file.overwrite(6, "7");
     CHECK(read_file(path, 100) == "old content");
     file.commit();
     CHECK(read_file(path, 100) == "size: 7 content");
@@ -101,6 +100,27 @@ TEST_CASE("a file made in pieces can be written over before it is in its place")
   }
   CHECK(read_file(path, 100) == "size: 7 content");
   CHECK_FALSE(std::filesystem::exists(folder / "a.txt.tmp"));
+}
+
+TEST_CASE("a file can be in its place before it is on the disk, and is told when it does not get there") {
+  const Scratch folder;
+  const std::filesystem::path path = folder / "a.txt";
+  FileReplacement file(path);
+  file.write("content");
+  const Descriptor descriptor = file.commit_unsynced();
+  CHECK(read_file(path, 100) == "content");
+  fault = {.calls_left = 0, .error = EIO};
+  const std::string text = message_of<OutputError>([&] { sync_file(descriptor, path); });
+  fault = {};
+  CHECK(contains(text, "a.txt"));
+  CHECK(contains(text, "the disk reports a fault"));
+  CHECK_NOTHROW(sync_file(descriptor, path));
+
+  FileReplacement other(folder / "b.txt");
+  fault = {.calls_left = 0, .error = ENOSPC};
+  CHECK(contains(message_of<OutputError>([&] { (void)other.commit_unsynced(); }), "No space left"));
+  fault = {};
+  CHECK_FALSE(std::filesystem::exists(folder / "b.txt"));
 }
 
 TEST_CASE("an interrupted call and short writes lose nothing") {

@@ -87,6 +87,65 @@ TEST_CASE("of a frame only what is wanted is read") {
         std::vector<std::string>{"velocity_m_per_s", "plastic_strain", "exact", "element", "flows_now"});
 }
 
+TEST_CASE("frames packed one after another, in memory that is used again, each read back as it was") {
+  const Scratch folder;
+  int asked = 0;
+  double shift = 0;
+  const auto frame = [&](std::size_t count) {
+    const auto numbers = [&](std::string name, auto number, bool constant) {
+      using Number = decltype(number);
+      return VtuField{std::move(name), 1, count,
+                      VtuSource<Number>([&, constant](std::size_t first, std::span<Number> out) {
+                        if (constant) ++asked;
+                        for (std::size_t k = 0; k < out.size(); ++k) {
+                          out[k] = static_cast<Number>((constant ? 0 : shift) + static_cast<double>(first + k));
+                        }
+                      }),
+                      constant};
+    };
+    return VtuFrame{.time = shift,
+                    .points = count,
+                    .cells = 0,
+                    .places = vectors<double>("Points", count,
+                                              [&](std::size_t i) {
+                                                return Vec2{shift, static_cast<double>(i)};
+                                              }),
+                    .corners = {"connectivity", 1, 0, VtuSource<std::int32_t>([](std::size_t, auto) {})},
+                    .ends = {"offsets", 1, 0, VtuSource<std::int32_t>([](std::size_t, auto) {})},
+                    .kinds = {"types", 1, 0, VtuSource<std::uint8_t>([](std::size_t, auto) {})},
+                    .point_fields = {numbers("moves", float{}, false), numbers("stays", std::int32_t{}, true)},
+                    .cell_fields = {}};
+  };
+  constexpr std::size_t count = 60000;  // of 4 bytes: three blocks
+  std::vector<std::size_t> order;
+  VtuPacker packer([&](std::size_t jobs, const std::function<void(std::size_t)>& job) {
+    order.push_back(jobs);
+    for (std::size_t k = jobs; k > 0; --k) job(k - 1);
+  });
+  std::array<PackedVtu, 2> packed;
+  const auto check = [&](const PackedVtu& one) {
+    FileReplacement file(folder / "a.vtu");
+    write_vtu(file, one);
+    file.commit();
+    CHECK(std::filesystem::file_size(folder / "a.vtu") == one.size());
+    return read_vtu(folder / "a.vtu");
+  };
+  for (int k = 0; k < 6; ++k) {
+    shift = 0.5 * k;
+    packer.pack(frame(count), packed[static_cast<std::size_t>(k % 2)]);
+    CHECK(asked == 3);  // what stays is asked for once, block by block
+  }
+  CHECK(order[0] == order[1] + 3);
+  for (const int k : {4, 5}) {
+    const VtuGrid grid = check(packed[static_cast<std::size_t>(k % 2)]);
+    CHECK(grid.time == 0.5 * k);
+    CHECK(grid.points[count - 1] == Vec2{0.5 * k, count - 1.0});
+    CHECK(std::get<std::vector<float>>(grid.point_fields[0].values)[count - 1] ==
+          static_cast<float>(0.5 * k + count - 1));
+    CHECK(std::get<std::vector<std::int32_t>>(grid.point_fields[1].values)[count - 1] == count - 1);
+  }
+}
+
 TEST_CASE("outlines of obstacles read back equal") {
   VtuGrid grid;
   grid.add_polygon(std::vector<Vec2>{{0, 0}, {1, 0}, {1, 1}, {0, 1}});
@@ -182,7 +241,12 @@ TEST_CASE("the index grows by frames and reads back") {
   const Scratch folder;
   PvdIndex index(folder / "fields.pvd");
   index.add({{0, 0, "fields/bodies_000000.vtu"}, {0, 1, "fields/obstacles_000000.vtu"}});
+  CHECK_FALSE(std::filesystem::exists(folder / "fields.pvd"));
+  index.write();
+  CHECK(read_pvd(folder / "fields.pvd") == index.entries());
   index.add({{2e-5 / 3, 0, "fields/bodies_000001.vtu"}});
+  CHECK(read_pvd(folder / "fields.pvd").size() == 2);
+  index.write();
   CHECK(read_pvd(folder / "fields.pvd") == index.entries());
   CHECK(index.entries().size() == 3);
 }

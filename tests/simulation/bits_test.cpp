@@ -58,6 +58,24 @@ TEST_CASE("what is written and how often changes no bit") {
   CHECK(with(7.7e-6, 31e-6, {5e-6}) == expected);
 }
 
+TEST_CASE("frames never, now and then, or in every step, with any number of threads: the same bits") {
+  const Scratch folder;
+  Case input = falling_block(0.00125);
+  input.run.end_time = 10e-6;
+  const std::uint64_t expected = hash_after(input, {.threads = 1});
+  int runs = 0;
+  for (const int threads : {1, 2, 4}) {
+    CAPTURE(threads);
+    CHECK(hash_after(input, {.threads = threads}) == expected);
+    for (const double every : {2e-6, 1e-10}) {
+      CAPTURE(every);
+      Case with_frames = input;
+      with_frames.output.fields_every = every;
+      CHECK(hash_after(with_frames, {.folder = folder / std::to_string(++runs), .threads = threads}) == expected);
+    }
+  }
+}
+
 TEST_CASE("what is observed changes no bit") {
   Case input = falling_block();
   const std::uint64_t expected = hash_after(input);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "udar/output/observer.hpp"
 
@@ -22,7 +23,7 @@ void for_elements(const Model& model, std::size_t first, std::size_t count, F&& 
     const Body& body = model.bodies[b];
     const std::size_t after = before + body.element_end - body.element_begin;
     for (std::size_t k = std::max(before, first); k < std::min(after, first + count); ++k) {
-      f(k - first, b, static_cast<Index>(body.element_begin + (k - before)));
+      f(k - first, b, body.element_begin + (k - before));  // 64 bits: with 32, which may wrap, no vectors are made
     }
     before = after;
   }
@@ -34,7 +35,7 @@ VtuField element_field(const Model& model, std::string name, Value value) {
   return {std::move(name), 1, model.element_count,
           VtuSource<Number>([&model, value](std::size_t first, std::span<Number> out) {
             for_elements(model, first, out.size(),
-                         [&](std::size_t k, std::size_t b, Index e) { out[k] = value(b, e); });
+                         [&](std::size_t k, std::size_t b, std::size_t e) { out[k] = value(b, e); });
           })};
 }
 
@@ -44,6 +45,11 @@ VtuField node_field(const Model& model, std::string name, Value value) {
   return {std::move(name), 1, model.node_count, VtuSource<Number>([value](std::size_t first, std::span<Number> out) {
             for (std::size_t k = 0; k < out.size(); ++k) out[k] = value(static_cast<Index>(first + k));
           })};
+}
+
+VtuField constant(VtuField field) {
+  field.constant = true;
+  return field;
 }
 
 VtuField node_numbers(const Model& model) {
@@ -114,20 +120,38 @@ std::vector<NodeTouch> node_touches(const Model& model, const State& state) {
   return touches;
 }
 
-/// Fields of the contact nodes; other nodes have what a node has that nothing touches.
+/// A field of the contact nodes, value(touch, number of the component); of other nodes what a node has that nothing
+/// touches.
+template <class Number, class Value>
+VtuField contact_field(const Model& model, const std::shared_ptr<const std::vector<NodeTouch>>& touches,
+                       std::string name, int components, Value value) {
+  const auto each = static_cast<std::size_t>(components);
+  return {std::move(name), components, each * model.node_count,
+          VtuSource<Number>([&model, touches, each, value](std::size_t first, std::span<Number> out) {
+            std::fill(out.begin(), out.end(), value(NodeTouch{}, 0));
+            const auto nodes = std::span(model.contact_nodes);
+            const std::size_t end = (first + out.size()) / each;
+            auto at = static_cast<std::size_t>(std::ranges::lower_bound(nodes, first / each) - nodes.begin());
+            for (; at < nodes.size() && nodes[at] < end; ++at) {
+              Number* const numbers = out.data() + (each * nodes[at] - first);
+              for (std::size_t k = 0; k < each; ++k) numbers[k] = value((*touches)[at], k);
+            }
+          })};
+}
+
 void add_contact_fields(const Model& model, const State& state, std::vector<VtuField>& out) {
   const auto touches = std::make_shared<const std::vector<NodeTouch>>(node_touches(model, state));
-  const auto touch = [&model, touches](std::size_t node) {
-    const auto at = std::lower_bound(model.contact_nodes.begin(), model.contact_nodes.end(), node);
-    if (at == model.contact_nodes.end() || *at != node) return NodeTouch{};
-    return (*touches)[static_cast<std::size_t>(at - model.contact_nodes.begin())];
-  };
-  out.push_back(node_vectors(model, "contact_force", "N", [touch](Index i) { return touch(i).force; }));
-  out.push_back(node_vectors(model, "contact_normal", "", [touch](Index i) { return touch(i).normal; }));
-  out.push_back(node_field<float>(model, field_name("contact_penetration", "m"),
-                                  [touch](Index i) { return as_float(touch(i).depth); }));
-  out.push_back(node_field<std::uint8_t>(model, "contact_state", [touch](Index i) { return touch(i).state; }));
-  out.push_back(node_field<std::int32_t>(model, "contact_partner", [touch](Index i) { return touch(i).partner; }));
+  const auto component = [](Vec2 v, std::size_t k) { return k == 0 ? as_float(v.x) : k == 1 ? as_float(v.y) : 0.0F; };
+  out.push_back(contact_field<float>(model, touches, field_name("contact_force", "N"), 3,
+                                     [=](const NodeTouch& t, std::size_t k) { return component(t.force, k); }));
+  out.push_back(contact_field<float>(model, touches, field_name("contact_normal", ""), 3,
+                                     [=](const NodeTouch& t, std::size_t k) { return component(t.normal, k); }));
+  out.push_back(contact_field<float>(model, touches, field_name("contact_penetration", "m"), 1,
+                                     [](const NodeTouch& t, std::size_t) { return as_float(t.depth); }));
+  out.push_back(contact_field<std::uint8_t>(model, touches, "contact_state", 1,
+                                            [](const NodeTouch& t, std::size_t) { return t.state; }));
+  out.push_back(contact_field<std::int32_t>(model, touches, "contact_partner", 1,
+                                            [](const NodeTouch& t, std::size_t) { return t.partner; }));
 }
 
 void add_point_fields(const Model& model, const State& state, std::vector<VtuField>& out) {
@@ -135,37 +159,38 @@ void add_point_fields(const Model& model, const State& state, std::vector<VtuFie
   out.push_back(node_vectors(model, "velocity", "m/s", [&](Index i) { return velocity(state, i); }));
   out.push_back(node_vectors(model, "acceleration", "m/s^2", [&](Index i) { return state.acceleration[i]; }));
   add_contact_fields(model, state, out);
-  out.push_back(node_numbers(model));
-  out.push_back(bodies_of_nodes(model));
+  out.push_back(constant(node_numbers(model)));
+  out.push_back(constant(bodies_of_nodes(model)));
 }
 
 void add_cell_fields(const Model& model, const State& state, std::vector<VtuField>& out) {
   const auto scalar = [&](const char* name, const char* unit, auto&& value) {
     out.push_back(element_field<float>(model, field_name(name, unit),
-                                       [value](std::size_t, Index e) { return as_float(value(e)); }));
+                                       [value](std::size_t, std::size_t e) { return as_float(value(e)); }));
   };
-  scalar("stress_x", "Pa", [&](Index e) { return state.stress_xx[e]; });
-  scalar("stress_y", "Pa", [&](Index e) { return state.stress_yy[e]; });
-  scalar("stress_xy", "Pa", [&](Index e) { return state.stress_xy[e]; });
-  scalar("stress_z", "Pa", [&](Index e) { return state.stress_zz[e]; });
+  scalar("stress_x", "Pa", [&](std::size_t e) { return state.stress_xx[e]; });
+  scalar("stress_y", "Pa", [&](std::size_t e) { return state.stress_yy[e]; });
+  scalar("stress_xy", "Pa", [&](std::size_t e) { return state.stress_xy[e]; });
+  scalar("stress_z", "Pa", [&](std::size_t e) { return state.stress_zz[e]; });
   // Computed anew for each of them: that takes less time than packing, and an array would take 24 bytes an element.
-  scalar("principal_1", "Pa", [&](Index e) { return principal_stresses(state, e)[0]; });
-  scalar("principal_2", "Pa", [&](Index e) { return principal_stresses(state, e)[1]; });
-  scalar("principal_3", "Pa", [&](Index e) { return principal_stresses(state, e)[2]; });
-  scalar("max_shear", "Pa", [&](Index e) {
+  scalar("principal_1", "Pa", [&](std::size_t e) { return principal_stresses(state, e)[0]; });
+  scalar("principal_2", "Pa", [&](std::size_t e) { return principal_stresses(state, e)[1]; });
+  scalar("principal_3", "Pa", [&](std::size_t e) { return principal_stresses(state, e)[2]; });
+  scalar("max_shear", "Pa", [&](std::size_t e) {
     const auto p = principal_stresses(state, e);
     return 0.5 * (p[0] - p[2]);
   });
   scalar("pressure", "Pa",
-         [&](Index e) { return -(state.stress_xx[e] + state.stress_yy[e] + state.stress_zz[e]) / 3; });
-  scalar("plastic_strain", "", [&](Index e) { return state.plastic_strain[e]; });
-  out.push_back(element_field<std::uint8_t>(
-      model, "flows_now", [&](std::size_t, Index e) { return static_cast<std::uint8_t>(flows(state, e)); }));
-  out.push_back(element_field<std::int32_t>(model, "element_number", [&](std::size_t, Index e) {
-    return static_cast<std::int32_t>(model.element_numbers[e]);
+         [&](std::size_t e) { return -(state.stress_xx[e] + state.stress_yy[e] + state.stress_zz[e]) / 3; });
+  scalar("plastic_strain", "", [&](std::size_t e) { return state.plastic_strain[e]; });
+  out.push_back(element_field<std::uint8_t>(model, "flows_now", [&](std::size_t, std::size_t e) {
+    return static_cast<std::uint8_t>(flows(state, static_cast<Index>(e)));
   }));
-  out.push_back(
-      element_field<std::int32_t>(model, "body", [](std::size_t b, Index) { return static_cast<std::int32_t>(b); }));
+  out.push_back(constant(element_field<std::int32_t>(model, "element_number", [&](std::size_t, std::size_t e) {
+    return static_cast<std::int32_t>(model.element_numbers[e]);
+  })));
+  out.push_back(constant(element_field<std::int32_t>(
+      model, "body", [](std::size_t b, std::size_t) { return static_cast<std::int32_t>(b); })));
 }
 
 /// Points and triangles of all bodies.
@@ -182,7 +207,7 @@ VtuFrame bare_frame(const Model& model, const State& state) {
                  .cell_fields = {}};
   frame.corners = {"connectivity", 1, 3 * frame.cells,
                    VtuSource<std::int32_t>([&model](std::size_t first, std::span<std::int32_t> out) {
-                     for_elements(model, first / 3, out.size() / 3, [&](std::size_t k, std::size_t, Index e) {
+                     for_elements(model, first / 3, out.size() / 3, [&](std::size_t k, std::size_t, std::size_t e) {
                        for (std::size_t c = 0; c < 3; ++c) {
                          out[3 * k + c] = static_cast<std::int32_t>(model.corners[e][c]);
                        }
@@ -194,6 +219,7 @@ VtuFrame bare_frame(const Model& model, const State& state) {
   frame.kinds = {"types", 1, frame.cells, VtuSource<std::uint8_t>([](std::size_t, std::span<std::uint8_t> out) {
                    std::fill(out.begin(), out.end(), static_cast<std::uint8_t>(VtuCell::triangle));
                  })};
+  for (VtuField* field : {&frame.corners, &frame.ends, &frame.kinds}) field->constant = true;
   return frame;
 }
 
@@ -237,10 +263,24 @@ VtuGrid obstacle_grid(const Model& model, const State& state) {
   return grid;
 }
 
-FrameWriter::FrameWriter(const Model& model, const RunFolder& folder)
-    : model_(model), folder_(folder), index_(folder / RunFolder::fields_index), intervals_(model.output.fields_every) {}
+namespace {
+
+/// How long a frame may be on the disk before the index names it, where others follow.
+constexpr std::chrono::milliseconds between_renewals{250};
+
+}  // namespace
+
+FrameWriter::FrameWriter(const Model& model, const RunFolder& folder, Pool& pool)
+    : model_(model),
+      folder_(folder),
+      intervals_(model.output.fields_every),
+      body_packer_(
+          [&pool](std::size_t jobs, const std::function<void(std::size_t)>& job) { pool.for_each_job(jobs, job); }),
+      index_(folder / RunFolder::fields_index),
+      background_([this] { renew_index(); }, between_renewals) {}
 
 void FrameWriter::record(const State& state) {
+  background_.rethrow();
   const double time = state.clock.time.value();
   bool due = intervals_.reached(time);
   // Here too a hair early counts.
@@ -248,26 +288,56 @@ void FrameWriter::record(const State& state) {
     due = true;
     ++times_;
   }
-  if (due) write(state);
+  if (due) take(state);
 }
 
 void FrameWriter::close(const State& state) {
   const bool wanted = model_.output.fields_every > 0 || !model_.output.fields_at.empty();
-  if (wanted && (frames_ == 0 || last_step_ != state.clock.step)) write(state);
+  if (wanted && (taken_ == 0 || last_step_ != state.clock.step)) take(state);
+  background_.finish();
 }
 
-void FrameWriter::write(const State& state) {
-  const double time = state.clock.time.value();
-  std::vector<PvdEntry> frame{{time, 0, RunFolder::frame_name("bodies", frames_)}};
-  write_vtu(folder_ / frame[0].file, body_frame(model_, state));
+void FrameWriter::take(const State& state) {
+  background_.wait(room_ - 1);
+  Waiting& frame = waiting_[taken_ % room_];
+  frame.time = state.clock.time.value();
+  body_packer_.pack(body_frame(model_, state), frame.bodies);
   const VtuGrid obstacles = obstacle_grid(model_, state);
-  if (!obstacles.points.empty()) {
-    frame.push_back({time, 1, RunFolder::frame_name("obstacles", frames_)});
-    write_vtu(folder_ / frame[1].file, obstacles);
-  }
-  index_.add(frame);
-  ++frames_;
+  frame.has_obstacles = !obstacles.points.empty();
+  if (frame.has_obstacles) obstacle_packer_.pack(obstacles, frame.obstacles);
+  background_.add([this, &frame] { put_on_disk(frame); });
+  constexpr std::size_t most_bytes = std::size_t{64} << 20;
+  if (taken_++ == 0) room_ = std::clamp<std::size_t>(most_bytes / frame.bodies.size(), 1, most_waiting);
   last_step_ = state.clock.step;
+}
+
+void FrameWriter::put_on_disk(const Waiting& frame) {
+  std::vector<PvdEntry> entries{put_file(frame.time, 0, RunFolder::frame_name("bodies", frames_), frame.bodies)};
+  if (frame.has_obstacles) {
+    entries.push_back(put_file(frame.time, 1, RunFolder::frame_name("obstacles", frames_), frame.obstacles));
+  }
+  index_.add(entries);
+  ++frames_;
+  constexpr std::size_t most_unsynced = 64;  // files that are held open
+  const auto age = std::chrono::steady_clock::now() - renewed_;
+  if (age >= between_renewals || unsynced_.size() >= most_unsynced) renew_index();
+}
+
+PvdEntry FrameWriter::put_file(double time, int part, std::string file, const PackedVtu& frame) {
+  FileReplacement replacement(folder_ / file);
+  write_vtu(replacement, frame);
+  unsynced_.push_back({replacement.commit_unsynced(), folder_ / file});
+  begin_sync(unsynced_.back().file);
+  return {time, part, std::move(file)};
+}
+
+/// One wait for the disk serves all files since the last time.
+void FrameWriter::renew_index() {
+  renewed_ = std::chrono::steady_clock::now();
+  if (unsynced_.empty()) return;
+  for (const Unsynced& file : std::exchange(unsynced_, {})) sync_file(file.file, file.path);
+  sync_folder(folder_ / RunFolder::fields);
+  index_.write();
 }
 
 }  // namespace udar

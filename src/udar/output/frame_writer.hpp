@@ -1,11 +1,17 @@
 #pragma once
 
+#include <array>
+#include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <vector>
 
 #include "udar/model/model.hpp"
 #include "udar/model/state.hpp"
 #include "udar/output/multiples.hpp"
+#include "udar/parallel/background.hpp"
+#include "udar/parallel/for_each.hpp"
+#include "udar/results/file.hpp"
 #include "udar/results/pvd.hpp"
 #include "udar/results/run_folder.hpp"
 #include "udar/results/vtu.hpp"
@@ -20,26 +26,56 @@ VtuGrid obstacle_grid(const Model& model, const State& state);
 std::vector<std::vector<Vec2>> obstacle_outlines(const Model& model, const State& state);
 
 /// Writes frames into the run folder: at every multiple of the interval, at the times asked for, each at the first t_n
-/// that is not before; steps are never changed for it. A frame is on the disk before the index names it.
+/// that is not before; steps are never changed for it.
+///
+/// The threads of the solver pack a frame together, between two steps; a thread in the background hands it to the disk
+/// while the solver goes on. A frame is whole and on the disk before the index names it; the index is renewed some
+/// times a second. What the disk refuses is told by a later call.
 class FrameWriter {
  public:
-  FrameWriter(const Model& model, const RunFolder& folder);
-  /// Writes a frame if one is due. Throws OutputError.
+  FrameWriter(const Model& model, const RunFolder& folder, Pool& pool);
+  /// Takes a frame if one is due; waits where too many are not yet written. Throws OutputError, also about a frame that
+  /// was taken before.
   void record(const State& state);
-  /// Writes the last frame, if it is not yet there.
+  /// Takes the last frame, if it is not yet there, and waits for the disk.
   void close(const State& state);
-  [[nodiscard]] int frames() const { return frames_; }
 
  private:
-  void write(const State& state);
+  /// A frame that waits for the disk, in memory that is used again.
+  struct Waiting {
+    double time = 0;  ///< s
+    PackedVtu bodies;
+    PackedVtu obstacles;
+    bool has_obstacles = false;
+  };
+  struct Unsynced {
+    Descriptor file;
+    std::filesystem::path path;
+  };
+  static constexpr std::size_t most_waiting = 4;
+
+  void take(const State& state);
+  void put_on_disk(const Waiting& frame);
+  PvdEntry put_file(double time, int part, std::string file, const PackedVtu& frame);
+  void renew_index();
 
   const Model& model_;
   RunFolder folder_;
-  PvdIndex index_;
   Multiples intervals_;
   std::size_t times_ = 0;  ///< times asked for that are done
-  int frames_ = 0;
+  VtuPacker body_packer_;
+  VtuPacker obstacle_packer_;
+  std::array<Waiting, most_waiting> waiting_;
+  std::size_t room_ = 1;   ///< how many of them are used
+  std::size_t taken_ = 0;  ///< frames
   std::uint64_t last_step_ = 0;
+
+  // Of the background thread.
+  PvdIndex index_;
+  int frames_ = 0;
+  std::vector<Unsynced> unsynced_;  ///< files since the index was renewed
+  std::chrono::steady_clock::time_point renewed_ = std::chrono::steady_clock::now();
+  Background background_;  ///< the last member: it ends first
 };
 
 }  // namespace udar

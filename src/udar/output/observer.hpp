@@ -49,6 +49,18 @@ std::vector<Observer> make_observers(const Model& model);
 double stored_elastic_energy(const Model& model, const State& state);
 
 /// Principal stresses, largest first, Pa.
-std::array<double, 3> principal_stresses(const State& state, Index element);
+inline std::array<double, 3> principal_stresses(const State& state, std::size_t element) {
+  const double zz = state.stress_zz[element];
+  const double centre = 0.5 * (state.stress_xx[element] + state.stress_yy[element]);
+  const double half = 0.5 * (state.stress_xx[element] - state.stress_yy[element]);
+  const double radius = std::sqrt(half * half + state.stress_xy[element] * state.stress_xy[element]);
+  const double larger = centre + radius;
+  const double smaller = centre - radius;
+  // Choices, no branches: a loop over elements becomes vectors.
+  const double above = zz > larger ? zz : larger;
+  const double middle = zz > smaller ? zz : smaller;
+  const double below = zz > smaller ? smaller : zz;
+  return {above, zz > larger ? larger : middle, below};
+}
 
 }  // namespace udar

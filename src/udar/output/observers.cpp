@@ -61,15 +61,6 @@ void tell_apart(std::vector<Observer>& observers) {
 
 }  // namespace
 
-std::array<double, 3> principal_stresses(const State& state, Index e) {
-  const double centre = 0.5 * (state.stress_xx[e] + state.stress_yy[e]);
-  const double half = 0.5 * (state.stress_xx[e] - state.stress_yy[e]);
-  const double radius = std::sqrt(half * half + state.stress_xy[e] * state.stress_xy[e]);
-  std::array<double, 3> p{centre + radius, centre - radius, state.stress_zz[e]};
-  std::sort(p.begin(), p.end(), std::greater<>());
-  return p;
-}
-
 Observer observe_node(const Model& model, const NodeObserver& node) {
   return {node.name,
           {{"displacement_x", "m"},

@@ -74,12 +74,6 @@ void close_checked(Descriptor& file, const fs::path& path) {
   if (::close(file.release()) < 0 && errno != EINTR) fail("close", path, errno);
 }
 
-void sync_folder(const fs::path& folder) {
-  const Descriptor file(retry([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); }));
-  if (!file.is_open()) fail("open folder", folder, errno);
-  sync(file.number(), folder);
-}
-
 /// Opens a new file; one that a killed run left is removed.
 Descriptor create(const fs::path& path) {
   ::unlink(path.c_str());
@@ -113,15 +107,10 @@ FileReplacement::~FileReplacement() {
 
 void FileReplacement::write(std::string_view bytes) { write_all(file_.number(), bytes, temporary_); }
 
-void FileReplacement::overwrite(std::size_t at, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t count =
-        retry([&] { return ::pwrite(file_.number(), bytes.data(), bytes.size(), static_cast<off_t>(at)); });
-    if (count < 0) fail("write", temporary_, errno);
-    if (count == 0) fail("write", temporary_, EIO);
-    bytes.remove_prefix(static_cast<std::size_t>(count));
-    at += static_cast<std::size_t>(count);
-  }
+Descriptor FileReplacement::commit_unsynced() {
+  if (::rename(temporary_.c_str(), path_.c_str()) < 0) fail("rename a file to", path_, errno);
+  temporary_.clear();
+  return std::move(file_);
 }
 
 void FileReplacement::commit() {
@@ -131,6 +120,21 @@ void FileReplacement::commit() {
   temporary_.clear();
   sync_folder(path_.has_parent_path() ? path_.parent_path() : fs::path("."));
 }
+
+void sync_folder(const fs::path& folder) {
+  const Descriptor file(retry([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); }));
+  if (!file.is_open()) fail("open folder", folder, errno);
+  sync(file.number(), folder);
+}
+
+void begin_sync([[maybe_unused]] const Descriptor& file) {
+#if defined(SYNC_FILE_RANGE_WRITE)
+  // What fails here fails again where it is waited for.
+  (void)::sync_file_range(file.number(), 0, 0, SYNC_FILE_RANGE_WRITE);
+#endif
+}
+
+void sync_file(const Descriptor& file, const fs::path& path) { sync(file.number(), path); }
 
 void write_file(const fs::path& path, std::string_view bytes) {
   FileReplacement file(path);

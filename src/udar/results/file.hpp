@@ -50,6 +50,13 @@ class PartReader {
   std::size_t size_ = 0;
 };
 
+/// Asks the system to begin to write a file to the disk: where several are waited for afterwards, the disk puts all of
+/// them into its journal at once. Promises nothing.
+void begin_sync(const Descriptor& file);
+/// Waits until a file, or the names in a folder, are on the disk. Throws OutputError; `path` is for its message.
+void sync_file(const Descriptor& file, const std::filesystem::path& path);
+void sync_folder(const std::filesystem::path& folder);
+
 /// Makes a file piece by piece, all or nothing as `write_file` does. Every call throws OutputError when it fails.
 class FileReplacement {
  public:
@@ -61,10 +68,11 @@ class FileReplacement {
   ~FileReplacement();
 
   void write(std::string_view bytes);
-  /// Puts `bytes` over those written before from byte `at` on.
-  void overwrite(std::size_t at, std::string_view bytes);
   /// Waits for the disk and puts the file in its place.
   void commit();
+  /// Puts the file in its place before it is on the disk: only a power cut or a crash of the system can damage it until
+  /// `sync_file` has been called with what is returned, and `sync_folder`.
+  [[nodiscard]] Descriptor commit_unsynced();
 
  private:
   std::filesystem::path path_;

@@ -29,10 +29,7 @@ PvdEntry parse_entry(const XmlTag& tag) {
 
 }  // namespace
 
-void PvdIndex::add(const std::vector<PvdEntry>& frame) {
-  entries_.insert(entries_.end(), frame.begin(), frame.end());
-  write_file(path_, to_pvd(entries_));
-}
+void PvdIndex::write() const { write_file(path_, to_pvd(entries_)); }
 
 std::string to_pvd(const std::vector<PvdEntry>& entries) {
   std::string out =

@@ -16,13 +16,15 @@ struct PvdEntry {
   friend bool operator==(const PvdEntry&, const PvdEntry&) = default;
 };
 
-/// The list of frames that ParaView opens. It is written anew, all or nothing, after each frame, so that a run that
-/// fails can be looked at up to its last frame.
+/// The list of frames that ParaView opens. It is written anew, all or nothing, again and again while the run goes on,
+/// so that one that fails can be looked at.
 class PvdIndex {
  public:
   explicit PvdIndex(std::filesystem::path path) : path_(std::move(path)) {}
-  /// Adds the files of one frame, which must already be on the disk. Throws OutputError.
-  void add(const std::vector<PvdEntry>& frame);
+  /// Adds the files of one frame, for the next `write`.
+  void add(const std::vector<PvdEntry>& frame) { entries_.insert(entries_.end(), frame.begin(), frame.end()); }
+  /// Writes the list; all that it names must be on the disk. Throws OutputError.
+  void write() const;
   [[nodiscard]] const std::vector<PvdEntry>& entries() const { return entries_; }
 
  private:

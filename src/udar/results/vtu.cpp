@@ -43,11 +43,6 @@ std::string field_name(std::string_view quantity, std::string_view unit) {
   return out;
 }
 
-float as_float(double value) {
-  constexpr double largest = std::numeric_limits<float>::max();
-  return static_cast<float>(std::isnan(value) ? value : std::clamp(value, -largest, largest));
-}
-
 VtuArray scalar_field(std::string_view quantity, std::string_view unit, std::span<const double> values) {
   std::vector<float> out(values.size());
   std::transform(values.begin(), values.end(), out.begin(), as_float);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,6 +14,8 @@
 #include "udar/base/vec2.hpp"
 
 namespace udar {
+
+class FileReplacement;
 
 /// Numbers of one kind, as they lie in the file.
 using VtuValues =
@@ -52,15 +55,17 @@ struct VtuGrid {
 template <class Number>
 using VtuSource = std::function<void(std::size_t first, std::span<Number> out)>;
 
-/// A field whose numbers are asked for while it is written, a few thousand at a time: nothing of its size is held.
+/// A field whose numbers are asked for while it is packed, a few thousand at a time: nothing of its size is held but
+/// what it packs to.
 struct VtuField {
   std::string name;
   int components = 1;
   std::size_t size = 0;  ///< numbers, of all components
   std::variant<VtuSource<double>, VtuSource<float>, VtuSource<std::int32_t>, VtuSource<std::uint8_t>> source;
+  bool constant = false;  ///< the same in all frames that a VtuPacker packs
 };
 
-/// One frame, to be written piece by piece. The arrays that VtuGrid has as vectors are fields here.
+/// One frame, to be packed piece by piece. The arrays that VtuGrid has as vectors are fields here.
 struct VtuFrame {
   double time = 0;  ///< s
   std::size_t points = 0;
@@ -74,7 +79,11 @@ struct VtuFrame {
 };
 
 /// The nearest of 32 bits; a number beyond them becomes the largest.
-float as_float(double value);
+inline float as_float(double value) {
+  constexpr double largest = std::numeric_limits<float>::max();
+  const double not_below = value < -largest ? -largest : value;
+  return static_cast<float>(not_below > largest ? largest : not_below);
+}
 
 /// A field with the vector value(i) for i from 0 to `count` - 1; z = 0 since VTK knows only three components.
 template <class Number, class Value>
@@ -111,10 +120,63 @@ VtuArray number_field(std::string_view name, std::span<const std::int32_t> value
 /// Yes or no, as 1 or 0.
 VtuArray flag_field(std::string_view name, std::span<const std::uint8_t> values);
 
+/// An array as it lies in a file: its head, then its blocks, each packed by itself into a place of its own.
+struct VtuBytes {
+  std::vector<std::uint64_t> head;  ///< number of blocks, their size, size of a shorter last one, packed sizes
+  std::size_t room_per_block = 0;
+  std::vector<char> room;
+
+  [[nodiscard]] std::size_t size() const;  ///< in the file
+};
+
+/// A frame as it lies in a file. The next one may be packed into the same memory. Uses what its packer holds.
+class PackedVtu {
+ public:
+  PackedVtu() = default;
+  PackedVtu(const PackedVtu&) = delete;
+  PackedVtu& operator=(const PackedVtu&) = delete;
+
+  /// Calls f with one piece of the file after another.
+  void for_each_piece(const std::function<void(std::string_view)>& f) const;
+  [[nodiscard]] std::size_t size() const;  ///< bytes of the file
+
+ private:
+  friend class VtuPacker;
+  std::string xml_;
+  std::vector<const VtuBytes*> arrays_;
+  std::vector<VtuBytes> own_;  ///< of the arrays that change
+};
+
+/// Packs frames with the same fields, one after another: what never changes is packed once, and tightly; the rest in a
+/// hurry (zlib_stream.hpp), since the solver waits for it.
+class VtuPacker {
+ public:
+  /// Calls job(0), job(1), ... job(jobs - 1), each once, in any order and at the same time as it can.
+  using ForEach = std::function<void(std::size_t jobs, const std::function<void(std::size_t)>& job)>;
+
+  VtuPacker()
+      : VtuPacker([](std::size_t jobs, const std::function<void(std::size_t)>& job) {
+          for (std::size_t k = 0; k < jobs; ++k) job(k);
+        }) {}
+  explicit VtuPacker(ForEach for_each) : for_each_(std::move(for_each)) {}
+  VtuPacker(const VtuPacker&) = delete;
+  VtuPacker& operator=(const VtuPacker&) = delete;
+
+  /// Packs into `out`, whose earlier frame is lost. Throws OutputError for a field whose length does not fit.
+  void pack(const VtuFrame& frame, PackedVtu& out);
+  void pack(const VtuGrid& grid, PackedVtu& out);
+
+ private:
+  ForEach for_each_;
+  std::vector<VtuBytes> constants_;
+};
+
 /// Writes `grid` as VTU (appended raw data, zlib blocks) all or nothing; ParaView and VTK read it. Throws OutputError,
 /// also for a field whose length does not fit.
 void write_vtu(const std::filesystem::path& path, const VtuGrid& grid);
 void write_vtu(const std::filesystem::path& path, const VtuFrame& frame);
+/// Writes a packed frame; `commit` is left to the caller.
+void write_vtu(FileReplacement& file, const PackedVtu& frame);
 std::string to_vtu(const VtuGrid& grid);
 
 /// Reads what `write_vtu` wrote; other programs' VTU only as far as they write the same way. Every count and number is

@@ -1,15 +1,15 @@
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
-#include <limits>
-#include <new>
+#include <numeric>
 
 #include "udar/base/error.hpp"
 #include "udar/results/file.hpp"
 #include "udar/results/vtu.hpp"
 #include "udar/results/xml.hpp"
+#include "udar/results/zlib_stream.hpp"
 
 namespace udar {
 namespace {
@@ -33,151 +33,90 @@ std::string_view bytes_of(std::span<const Number> values) {
   return {reinterpret_cast<const char*>(values.data()), values.size_bytes()};
 }
 
-/// Compresses blocks one after the other with one and the same memory: zlib takes and clears 260 KB for a start.
-class Packer {
- public:
-  Packer() {
-    // Level 1: the higher ones cost the solver several times the time for a tenth of the size.
-    if (::deflateInit(&stream_, 1) != Z_OK) throw std::bad_alloc();
-    packed_.resize(::deflateBound(&stream_, block_bytes));
-  }
-  ~Packer() { ::deflateEnd(&stream_); }
-  Packer(const Packer&) = delete;
-  Packer& operator=(const Packer&) = delete;
-
-  /// `bytes` compressed, until the next call.
-  std::string_view pack(std::string_view bytes) {
-    ::deflateReset(&stream_);
-    stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));  // which zlib only reads
-    stream_.avail_in = static_cast<uInt>(bytes.size());
-    stream_.next_out = packed_.data();
-    stream_.avail_out = static_cast<uInt>(packed_.size());
-    if (::deflate(&stream_, Z_FINISH) != Z_STREAM_END) throw std::bad_alloc();
-    return {reinterpret_cast<const char*>(packed_.data()), packed_.size() - stream_.avail_out};
-  }
-
- private:
-  z_stream stream_{};
-  std::vector<Bytef> packed_;
-};
-
-/// Where a file goes: to its end, or over bytes that are there.
-struct Output {
-  std::function<void(std::string_view)> append;
-  std::function<void(std::size_t at, std::string_view)> overwrite;
-};
-
 void check_length(const VtuField& field, std::size_t count) {
   if (field.components >= 1 && field.size == count * static_cast<std::size_t>(field.components)) return;
   throw OutputError(fmt::format("cannot write field `{}`: it has {} values where {} x {} are needed", field.name,
                                 field.size, count, field.components));
 }
 
-/// Writes a frame as it goes along. The XML comes first in the file and tells where each array begins behind it, which
-/// is known when all are compressed: room is left for it, and filled at the end.
-class Writer {
- public:
-  Writer(const VtuFrame& frame, const Output& output)
-      : frame_(frame), output_(output), time_(plain("TimeValue", frame.time)) {
-    for (const VtuField& field : frame.point_fields) check_length(field, frame.points);
-    for (const VtuField& field : frame.cell_fields) check_length(field, frame.cells);
-  }
+std::size_t size_of_number(const VtuField& field) {
+  return std::visit([]<class Number>(const VtuSource<Number>&) { return sizeof(Number); }, field.source);
+}
 
-  void write() {
-    offsets_.assign(5 + frame_.point_fields.size() + frame_.cell_fields.size(),
-                    std::numeric_limits<std::uint64_t>::max());
-    const std::size_t room = xml().size();
-    append(xml() + data_begin_tag);
-    data_begin_ = position_;
-    offsets_.clear();
-    append_array(time_);
-    for (const VtuField& field : frame_.point_fields) append_array(field);
-    for (const VtuField& field : frame_.cell_fields) append_array(field);
-    for (const VtuField* field : {&frame_.places, &frame_.corners, &frame_.ends, &frame_.kinds}) append_array(*field);
-    append("\n</AppendedData>\n</VTKFile>\n");
-    std::string text = xml();
-    text.resize(room, ' ');
-    output_.overwrite(0, text);
-  }
-
- private:
-  static constexpr const char* data_begin_tag = "\n<AppendedData encoding=\"raw\">\n_";
-
-  static VtuField plain(const char* name, double value) {
-    return {name, 1, 1, VtuSource<double>([=](std::size_t, std::span<double> out) { out[0] = value; })};
-  }
-
-  void append(std::string_view bytes) {
-    output_.append(bytes);
-    position_ += bytes.size();
-  }
-
-  /// As VTK's zlib compressor lays it out: number of blocks, their size, size of a shorter last block or 0, compressed
-  /// size of each; then the blocks.
-  void append_array(const VtuField& field) {
-    offsets_.push_back(position_ - data_begin_);
-    std::visit([&](const auto& source) { append_numbers(field.size, source); }, field.source);
-  }
-  template <class Number>
-  void append_numbers(std::size_t size, const VtuSource<Number>& source) {
+/// Asks for the numbers of one block and packs them into its place. Runs beside others.
+void pack_block(const VtuField& field, std::size_t block, VtuBytes& out) {
+  const std::span<char> room(out.room.data() + block * out.room_per_block, out.room_per_block);
+  const auto pack = [&]<class Number>(const VtuSource<Number>& source) {
     constexpr std::size_t per_block = block_bytes / sizeof(Number);
-    const std::size_t blocks = (size + per_block - 1) / per_block;
-    std::vector<std::uint64_t> head(3 + blocks);
-    head[0] = blocks;
-    head[1] = block_bytes;
-    head[2] = size % per_block * sizeof(Number);
-    const std::size_t head_at = position_;
-    append(bytes_of<std::uint64_t>(head));
-    std::vector<Number> numbers(per_block);
-    for (std::size_t first = 0, block = 3; first < size; first += per_block, ++block) {
-      const std::span<Number> piece(numbers.data(), std::min(per_block, size - first));
-      source(first, piece);
-      const std::string_view packed = packer_.pack(bytes_of<Number>(piece));
-      head[block] = packed.size();
-      append(packed);
-    }
-    output_.overwrite(head_at, bytes_of<std::uint64_t>(head));
-  }
+    alignas(64) std::array<Number, per_block> numbers;  // not zeroed first
+    const std::size_t first = block * per_block;
+    const std::span<Number> piece(numbers.data(), std::min(per_block, field.size - first));
+    source(first, piece);
+    const std::string_view bytes = bytes_of<Number>(piece);
+    return field.constant ? pack_tightly(bytes, room) : pack_quickly(bytes, room);
+  };
+  out.head[3 + block] = std::visit(pack, field.source);
+}
 
-  [[nodiscard]] std::string xml() const {
-    std::size_t array = 0;
-    std::string text =
-        "<?xml version=\"1.0\"?>\n"
-        "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" "
-        "compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n<FieldData>\n";
-    // Twice under the names that programs look for: TimeValue in ParaView and VTK, TIME in VisIt.
-    for (const char* name : {"TimeValue", "TIME"}) {
-      text += fmt::format(R"(<DataArray type="Float64" Name="{}" NumberOfTuples="1" format="appended" offset="{}"/>)"
-                          "\n",
-                          name, offsets_[array]);
-    }
-    ++array;
-    text += fmt::format("</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<PointData>\n",
-                        frame_.points, frame_.cells);
-    for (const VtuField& field : frame_.point_fields) text += tag(field, offsets_[array++]);
-    text += "</PointData>\n<CellData>\n";
-    for (const VtuField& field : frame_.cell_fields) text += tag(field, offsets_[array++]);
-    text += "</CellData>\n<Points>\n";
-    text += tag(frame_.places, offsets_[array++]);
-    text += "</Points>\n<Cells>\n";
-    for (const VtuField* field : {&frame_.corners, &frame_.ends, &frame_.kinds}) text += tag(*field, offsets_[array++]);
-    return text + "</Cells>\n</Piece>\n</UnstructuredGrid>";
-  }
-  static std::string tag(const VtuField& field, std::uint64_t offset) {
-    const auto type = std::visit([](const auto& source) { return name_of_type(source); }, field.source);
-    return fmt::format(R"(<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="appended" offset="{}"/>)"
-                       "\n",
-                       type, escape_xml(field.name), field.components, offset);
-  }
+/// Makes room for an array, and all of its head but the packed sizes. As VTK's zlib compressor lays it out: number of
+/// blocks, their size, size of a shorter last block or 0, packed size of each; then the blocks.
+void lay_out(const VtuField& field, VtuBytes& out) {
+  const std::size_t bytes = field.size * size_of_number(field);
+  const std::size_t blocks = (bytes + block_bytes - 1) / block_bytes;
+  const std::size_t largest = std::min(bytes, block_bytes);
+  out.room_per_block = field.constant ? tight_bound(largest) : quick_bound(largest);
+  out.room.resize(blocks * out.room_per_block);
+  out.head.assign(3 + blocks, 0);
+  out.head[0] = blocks;
+  out.head[1] = block_bytes;
+  out.head[2] = bytes % block_bytes;
+}
 
-  const VtuFrame& frame_;
-  const Output& output_;
-  VtuField time_;
-  Packer packer_;
-  std::vector<std::uint64_t> offsets_;  ///< of the arrays in the data
-  std::size_t position_ = 0;
-  std::size_t data_begin_ = 0;
-};
+/// All arrays of a frame as they come in the file, behind the time.
+std::vector<const VtuField*> arrays_of(const VtuFrame& frame) {
+  std::vector<const VtuField*> all;
+  for (const VtuField& field : frame.point_fields) all.push_back(&field);
+  for (const VtuField& field : frame.cell_fields) all.push_back(&field);
+  for (const VtuField* field : {&frame.places, &frame.corners, &frame.ends, &frame.kinds}) all.push_back(field);
+  return all;
+}
+
+VtuField plain(const char* name, double value) {
+  return {name, 1, 1, VtuSource<double>([=](std::size_t, std::span<double> out) { out[0] = value; })};
+}
+
+std::string tag(const VtuField& field, std::uint64_t offset) {
+  const auto type = std::visit([](const auto& source) { return name_of_type(source); }, field.source);
+  return fmt::format(R"(<DataArray type="{}" Name="{}" NumberOfComponents="{}" format="appended" offset="{}"/>)"
+                     "\n",
+                     type, escape_xml(field.name), field.components, offset);
+}
+
+/// What comes before the data. `offsets` tell where each array begins there, the time first.
+std::string xml(const VtuFrame& frame, std::span<const std::uint64_t> offsets) {
+  std::size_t array = 0;
+  std::string text =
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\" "
+      "compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n<FieldData>\n";
+  // Twice under the names that programs look for: TimeValue in ParaView and VTK, TIME in VisIt.
+  for (const char* name : {"TimeValue", "TIME"}) {
+    text += fmt::format(R"(<DataArray type="Float64" Name="{}" NumberOfTuples="1" format="appended" offset="{}"/>)"
+                        "\n",
+                        name, offsets[array]);
+  }
+  ++array;
+  text += fmt::format("</FieldData>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<PointData>\n", frame.points,
+                      frame.cells);
+  for (const VtuField& field : frame.point_fields) text += tag(field, offsets[array++]);
+  text += "</PointData>\n<CellData>\n";
+  for (const VtuField& field : frame.cell_fields) text += tag(field, offsets[array++]);
+  text += "</CellData>\n<Points>\n";
+  text += tag(frame.places, offsets[array++]);
+  text += "</Points>\n<Cells>\n";
+  for (const VtuField* field : {&frame.corners, &frame.ends, &frame.kinds}) text += tag(*field, offsets[array++]);
+  return text + "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
+}
 
 /// The numbers of a vector, which must stay where it is.
 template <class Number>
@@ -208,20 +147,82 @@ VtuFrame frame_of(const VtuGrid& grid) {
 
 }  // namespace
 
+std::size_t VtuBytes::size() const {
+  return head.size() * sizeof(std::uint64_t) + std::accumulate(head.begin() + 3, head.end(), std::size_t{0});
+}
+
+void PackedVtu::for_each_piece(const std::function<void(std::string_view)>& f) const {
+  f(xml_);
+  for (const VtuBytes* array : arrays_) {
+    f(bytes_of<std::uint64_t>(array->head));
+    for (std::size_t block = 0; block < array->head[0]; ++block) {
+      f({array->room.data() + block * array->room_per_block, array->head[3 + block]});
+    }
+  }
+  f("\n</AppendedData>\n</VTKFile>\n");
+}
+
+std::size_t PackedVtu::size() const {
+  std::size_t sum = 0;
+  for_each_piece([&](std::string_view piece) { sum += piece.size(); });
+  return sum;
+}
+
+void VtuPacker::pack(const VtuFrame& frame, PackedVtu& out) {
+  for (const VtuField& field : frame.point_fields) check_length(field, frame.points);
+  for (const VtuField& field : frame.cell_fields) check_length(field, frame.cells);
+  const VtuField time = plain("TimeValue", frame.time);
+  std::vector<const VtuField*> arrays = arrays_of(frame);
+  arrays.insert(arrays.begin(), &time);
+  constants_.resize(arrays.size());
+  out.own_.resize(arrays.size());
+  out.arrays_.clear();
+
+  struct Job {
+    const VtuField* field;
+    std::size_t block;
+    VtuBytes* out;
+  };
+  std::vector<Job> jobs;
+  for (std::size_t k = 0; k < arrays.size(); ++k) {
+    VtuBytes& bytes = arrays[k]->constant ? constants_[k] : out.own_[k];
+    out.arrays_.push_back(&bytes);
+    if (arrays[k]->constant && !bytes.head.empty()) continue;  // packed for an earlier frame
+    lay_out(*arrays[k], bytes);
+    for (std::size_t block = 0; block < bytes.head[0]; ++block) jobs.push_back({arrays[k], block, &bytes});
+  }
+  for_each_(jobs.size(), [&](std::size_t k) { pack_block(*jobs[k].field, jobs[k].block, *jobs[k].out); });
+
+  std::vector<std::uint64_t> offsets;
+  std::uint64_t offset = 0;
+  for (const VtuBytes* array : out.arrays_) {
+    offsets.push_back(offset);
+    offset += array->size();
+  }
+  out.xml_ = xml(frame, offsets);
+}
+
+void VtuPacker::pack(const VtuGrid& grid, PackedVtu& out) { pack(frame_of(grid), out); }
+
 std::string to_vtu(const VtuGrid& grid) {
   std::string text;
-  const Output output{[&](std::string_view bytes) { text += bytes; },
-                      [&](std::size_t at, std::string_view bytes) { text.replace(at, bytes.size(), bytes); }};
-  const VtuFrame frame = frame_of(grid);
-  Writer(frame, output).write();
+  PackedVtu packed;
+  VtuPacker packer;
+  packer.pack(grid, packed);
+  packed.for_each_piece([&](std::string_view piece) { text += piece; });
   return text;
 }
 
+void write_vtu(FileReplacement& file, const PackedVtu& frame) {
+  frame.for_each_piece([&](std::string_view piece) { file.write(piece); });
+}
+
 void write_vtu(const std::filesystem::path& path, const VtuFrame& frame) {
+  PackedVtu packed;
+  VtuPacker packer;
+  packer.pack(frame, packed);
   FileReplacement file(path);
-  const Output output{[&](std::string_view bytes) { file.write(bytes); },
-                      [&](std::size_t at, std::string_view bytes) { file.overwrite(at, bytes); }};
-  Writer(frame, output).write();
+  write_vtu(file, packed);
   file.commit();
 }
 

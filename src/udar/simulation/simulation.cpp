@@ -45,9 +45,9 @@ namespace {
 /// Everything that is written while a case runs.
 class Recorders {
  public:
-  Recorders(const Model& model, const std::optional<RunFolder>& folder)
+  Recorders(const Model& model, const std::optional<RunFolder>& folder, Pool& pool)
       : histories_(model, folder ? std::optional(*folder / RunFolder::histories) : std::nullopt), contacts_(model) {
-    if (folder) frames_.emplace(model, *folder);
+    if (folder) frames_.emplace(model, *folder, pool);
   }
 
   void record(const State& state) {
@@ -187,7 +187,7 @@ Summary Simulation::run(const RunOptions& options) {
   state_ = start(model_, work);
   std::optional<RunFolder> folder;
   if (options.folder) folder = open_folder(case_, model_, state_, options);
-  Recorders recorders(model_, folder);
+  Recorders recorders(model_, folder, work.pool);
   const auto look = [&] {
     recorders.record(state_);
     for (const auto& watch : watchers_) watch(model_, state_);
