@@ -307,7 +307,7 @@ void FrameWriter::take(const State& state) {
   if (frame.has_obstacles) obstacle_packer_.pack(obstacles, frame.obstacles);
   background_.add([this, &frame] { put_on_disk(frame); });
   constexpr std::size_t most_bytes = std::size_t{64} << 20;
-  if (taken_++ == 0) room_ = std::clamp<std::size_t>(most_bytes / frame.bodies.size(), 1, most_waiting);
+  if (taken_++ == 0) room_ = std::clamp<std::size_t>(most_bytes / frame.bodies.memory(), 1, most_waiting);
   last_step_ = state.clock.step;
 }
 

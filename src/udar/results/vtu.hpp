@@ -138,7 +138,8 @@ class PackedVtu {
 
   /// Calls f with one piece of the file after another.
   void for_each_piece(const std::function<void(std::string_view)>& f) const;
-  [[nodiscard]] std::size_t size() const;  ///< bytes of the file
+  [[nodiscard]] std::size_t size() const;    ///< bytes of the file
+  [[nodiscard]] std::size_t memory() const;  ///< bytes that are held, whatever is in them
 
  private:
   friend class VtuPacker;

@@ -168,6 +168,12 @@ std::size_t PackedVtu::size() const {
   return sum;
 }
 
+std::size_t PackedVtu::memory() const {
+  std::size_t sum = 0;
+  for (const VtuBytes& array : own_) sum += array.room.size();
+  return sum;
+}
+
 void VtuPacker::pack(const VtuFrame& frame, PackedVtu& out) {
   for (const VtuField& field : frame.point_fields) check_length(field, frame.points);
   for (const VtuField& field : frame.cell_fields) check_length(field, frame.cells);
