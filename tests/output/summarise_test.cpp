@@ -46,6 +46,38 @@ TEST_CASE("a run with closed books is good, without reasons") {
   CHECK(s.summary.reasons.empty());
 }
 
+TEST_CASE("the summary names what there is, and where observers sit") {
+  Case c = falling_block();
+  c.bodies.push_back(c.bodies[0]);
+  c.bodies[1].name = "lid";
+  c.bodies[1].rigid = true;
+  c.bodies[1].mesh = RectangleMesh{.size = {0.04, 0.01}, .at = {-0.02, 0.03}, .element_size = 0.005};
+  c.observed_nodes.push_back({.name = "energy", .body = "lid", .at = {0.02, 0.04}});
+  const WatchedRun run(c);
+  const Summary s = summarise(run.model, run.state);
+  REQUIRE(s.bodies.size() == 2);
+  CHECK(s.bodies[0].name == "block");
+  CHECK_FALSE(s.bodies[0].rigid);
+  CHECK(s.bodies[1].name == "lid");
+  CHECK(s.bodies[1].rigid);
+  CHECK(s.bodies[0].elements + s.bodies[1].elements == s.elements);
+  CHECK(s.bodies[0].nodes + s.bodies[1].nodes == s.nodes);
+  CHECK(s.obstacles == std::vector<std::string>{"stop"});
+  CHECK(s.observed.size() == 3);
+  CHECK(s.observed.at("corner").on == "node");
+  CHECK(s.observed.at("corner").body == "block");
+  CHECK(s.observed.at("bottom").on == "element");
+  // Its history cannot be called as that of the books is.
+  const ObservedSummary& lid = s.observed.at("energy_2");
+  CHECK(lid.body == "lid");
+  const Body& body = run.model.bodies[1];
+  for (Index i = body.node_begin; i < body.node_end; ++i) {
+    if (run.model.node_numbers[i] != lid.number) continue;
+    CHECK(run.model.rest[i].x == doctest::Approx(0.02));
+    CHECK(run.model.rest[i].y == doctest::Approx(0.04));
+  }
+}
+
 TEST_CASE("the energy error decides at 0.1 % and 1 %") {
   Spoilt s;
   const auto verdict_at = [&](double error) {

@@ -19,6 +19,7 @@ namespace {
 template <class Number>
 std::string differences(std::span<const Number> numbers, std::size_t columns) {
   constexpr int bits = 8 * sizeof(Number);
+  if (columns == 0) return {};
   std::string planes(numbers.size() * sizeof(Number), '\0');
   Number left = 0;
   for (std::size_t i = 0; i < numbers.size(); ++i) {

@@ -160,8 +160,9 @@ Costs FrameEncoder::measure(const Choice& choice) const {
     // In the middle of each third: an impact begins with nothing and may end so.
     const std::size_t first = chunks <= samples ? s * at_once : (2 * s + 1) * chunks / (2 * samples) * at_once;
     const std::size_t end = std::min(first + at_once, frames.size());
+    const std::size_t every_other = (end - first + 1) / 2;
     rows += static_cast<double>(end - first);
-    rows_halved += static_cast<double>((end - first + 1) / 2);
+    rows_halved += static_cast<double>(every_other);
     for (const Wanted& part : parts_of(choice)) {
       const Chunk chunk = read(frames, first, end, part);
       for (std::size_t q = 0; q < part.quantities.size(); ++q) {

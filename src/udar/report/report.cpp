@@ -281,7 +281,7 @@ class Report {
 
   [[nodiscard]] std::vector<std::string> sentences(const Ladder& ladder) const {
     std::vector<std::string> out = ladder.sentences();
-    if (!options_.fields.empty()) out.push_back("of the fields only those asked for are here");
+    if (!options_.fields.empty()) out.emplace_back("of the fields only those asked for are here");
     if (!histories_left_out_.empty()) out.push_back(histories_left_out_);
     out.insert(out.end(), run_.troubles.begin(), run_.troubles.end());
     return out;
