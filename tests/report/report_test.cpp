@@ -121,7 +121,7 @@ TEST_CASE("fields of a report are those of the frames within half a step") {
   CHECK(report.quantity("max_shear") == nullptr);  // it follows from the three
 }
 
-TEST_CASE("places are the middle of the body and what is against it") {
+TEST_CASE("places are the centre of mass of the body and what is against it") {
   SmallRun run;
   const ReadReport report = run.read();
   const std::vector<double> centres[] = {report.values(report.run.at("centre_x")),
@@ -141,6 +141,17 @@ TEST_CASE("places are the middle of the body and what is against it") {
           FAIL("node " << i << " is off by " << off);
       }
     }
+    // The run's own centre of mass, from its lumped masses.
+    const History history = read_csv(run.folder / "histories/block.csv");
+    const std::vector<double> times = report.run.at("times");
+    for (std::size_t frame = 0; frame < times.size(); ++frame) {
+      const auto row = std::find(history.at("time").begin(), history.at("time").end(), times[frame]);
+      if (row == history.at("time").end()) continue;
+      const double position = history.at(c == 0 ? "position_x" : "position_y")[static_cast<std::size_t>(
+          row - history.at("time").begin())];
+      CHECK(std::fabs(centres[c][frame] - position) <= 4e-9);
+    }
+    CHECK(times.front() == history.at("time").front());
   }
 }
 

@@ -115,7 +115,7 @@ export interface Run {
   centre_x: ArrayRef;
   centre_y: ArrayRef;
   quantities: Quantity[];
-  forces?: { unit: string; chunks: ForceChunk[] };
+  forces?: { unit: string; largest: number; chunks: ForceChunk[] };
   outlines: { sets: Point[][][]; of_frame: number[] };
   observed: Record<string, { on: "nodes" | "elements"; index: number }>;
   histories: History[];

@@ -98,11 +98,7 @@ export class Show {
     const chunks = this.frames.run.forces?.chunks ?? [];
     const chunk = chunks.find((c) => frame >= c.first && frame < c.first + c.counts.length);
     if (!chunk) return null;
-    const largest = Math.max(
-      ...chunks.flatMap(({ x, y }) =>
-        [x, y].flatMap((ref) => (ref ? [ref.low ?? 0, (ref.low ?? 0) + (ref.step ?? 0) * 65535] : [0])).map(Math.abs),
-      ),
-    );
+    const { largest } = this.frames.run.forces!;
     if (!chunk.nodes || !chunk.x || !chunk.y) {
       return { nodes: new Uint32Array(), x: new Float32Array(), y: new Float32Array(), largest };
     }

@@ -95,18 +95,21 @@ PackedArray rounded(std::span<const Value> values, std::size_t columns, int bits
   const Range range = range_of(values);
   auto most = static_cast<Number>(none >> (8 * static_cast<int>(sizeof(Number)) - bits));
   if (range.has_none && most == none) --most;
-  const double step = (range.high - range.low) / most;
+  // Between values of both signs 0 has a number of its own: what is nothing stays nothing.
+  const bool both_signs = range.low < 0 && range.high > 0;
+  const double step = (range.high - range.low) / (both_signs ? most - 1 : most);
+  const double low = both_signs ? -step * std::ceil(-range.low / step) : range.low;
   std::vector<Number> numbers(values.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (!is_number(values[i])) {
       numbers[i] = none;
     } else if (step > 0) {
-      const double q = (values[i] - range.low) / step + 0.5;  // cut to the whole number below
+      const double q = (values[i] - low) / step + 0.5;  // cut to the whole number below
       numbers[i] = static_cast<Number>(std::clamp(q, 0.0, static_cast<double>(most)));
     }
   }
   PackedArray out = packed<Number>(numbers, columns);
-  out.low = range.low;
+  out.low = low;
   out.step = step;
   if (range.has_none) out.none = none;
   return out;

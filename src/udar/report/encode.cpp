@@ -38,6 +38,16 @@ Json packed_forces(const NodeForces& forces, std::size_t first, Blocks& blocks) 
   return out;
 }
 
+/// N.
+double largest_of(const NodeForces& forces) {
+  double largest = 0;
+  for (std::size_t k = 0; k < forces.x.size(); ++k) {
+    const double force = length(Vec2{forces.x[k], forces.y[k]});
+    if (std::isfinite(force)) largest = std::max(largest, force);
+  }
+  return largest;
+}
+
 }  // namespace
 
 std::vector<Quantity> FrameEncoder::quantities_of(const Choice& choice) {
@@ -100,6 +110,7 @@ std::optional<Json> FrameEncoder::encode(const Choice& choice, Blocks& blocks, s
         {{"name", q.name}, {"unit", q.unit}, {"on", q.on_nodes ? "nodes" : "elements"}, {"chunks", Json::array()}});
   }
   Json force_chunks = Json::array();
+  double largest_force = 0;  // N
   std::vector<double> centre_x;
   std::vector<double> centre_y;
   for (std::size_t first = 0; first < frames.size(); first += at_once) {
@@ -113,7 +124,10 @@ std::optional<Json> FrameEncoder::encode(const Choice& choice, Blocks& blocks, s
         quantities[number++]["chunks"].push_back(std::move(packed_chunk));
         if (blocks.bytes() > most_bytes) return std::nullopt;
       }
-      if (part.forces) force_chunks.push_back(packed_forces(chunk.forces, first, blocks));
+      if (part.forces) {
+        force_chunks.push_back(packed_forces(chunk.forces, first, blocks));
+        largest_force = std::max(largest_force, largest_of(chunk.forces));
+      }
       centre_x.insert(centre_x.end(), chunk.centre_x.begin(), chunk.centre_x.end());
       centre_y.insert(centre_y.end(), chunk.centre_y.begin(), chunk.centre_y.end());
     }
@@ -121,7 +135,7 @@ std::optional<Json> FrameEncoder::encode(const Choice& choice, Blocks& blocks, s
   constexpr int centre_bits = 32;
   const std::size_t bodies = mesh_.bodies.size();
   Json out{{"quantities", std::move(quantities)}};
-  if (choice.forces) out["forces"] = {{"unit", "N"}, {"chunks", std::move(force_chunks)}};
+  if (choice.forces) out["forces"] = {{"unit", "N"}, {"largest", largest_force}, {"chunks", std::move(force_chunks)}};
   out["centre_x"] = blocks.add(pack_rounded(centre_x, bodies, centre_bits));
   out["centre_y"] = blocks.add(pack_rounded(centre_y, bodies, centre_bits));
   if (blocks.bytes() > most_bytes) return std::nullopt;

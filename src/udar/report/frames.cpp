@@ -57,16 +57,37 @@ void add_component(const VtuArray& field, int component, std::vector<float>& out
       field.values);
 }
 
-/// The middle of a body's nodes; those that are nowhere do not count.
-Vec2 middle(std::span<const Vec2> points) {
-  Vec2 sum{};
-  double count = 0;
-  for (const Vec2& p : points) {
-    if (!std::isfinite(p.x) || !std::isfinite(p.y)) continue;
-    sum += p;
-    ++count;
+/// The share of each node in the mass of its body: a third of the areas of its triangles over the area of the body. A
+/// body is of one density and thickness, so these are the lumped masses of the run, where the frame is that of its start.
+std::vector<double> mass_shares(const ReportMesh& mesh, std::span<const Vec2> points) {
+  std::vector<double> shares(mesh.nodes);
+  for (const MeshBody& body : mesh.bodies) {
+    double total = 0;
+    for (std::size_t e = body.element_begin; e < body.element_end; ++e) {
+      const std::array corners{mesh.corners[e], mesh.corners[mesh.elements + e], mesh.corners[2 * mesh.elements + e]};
+      const Vec2 a = points[corners[0]];
+      const double area = 0.5 * std::fabs(cross(points[corners[1]] - a, points[corners[2]] - a));
+      if (!std::isfinite(area)) continue;
+      for (const std::uint32_t corner : corners) shares[corner] += area / 3;
+      total += area;
+    }
+    for (std::size_t i = body.node_begin; i < body.node_end; ++i) {
+      shares[i] = total > 0 ? shares[i] / total : 1 / static_cast<double>(body.node_end - body.node_begin);
+    }
   }
-  return count > 0 ? (1 / count) * sum : Vec2{};
+  return shares;
+}
+
+/// Centre of mass; nodes that are nowhere do not count.
+Vec2 centre_of_mass(std::span<const Vec2> points, std::span<const double> shares) {
+  Vec2 sum{};
+  double known = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y)) continue;
+    sum += shares[i] * points[i];
+    known += shares[i];
+  }
+  return known > 0 ? (1 / known) * sum : Vec2{};
 }
 
 constexpr std::string_view force_field = "contact_force_N";
@@ -88,7 +109,8 @@ void add_forces(const VtuArray& field, NodeForces& forces) {
 void add_places(const VtuGrid& grid, const ReportMesh& mesh, const Wanted& wanted, Chunk& chunk) {
   for (const MeshBody& body : mesh.bodies) {
     const auto points = std::span(grid.points).subspan(body.node_begin, body.node_end - body.node_begin);
-    const Vec2 centre = middle(points);
+    const Vec2 centre =
+        centre_of_mass(points, std::span(mesh.shares).subspan(body.node_begin, body.node_end - body.node_begin));
     chunk.centre_x.push_back(centre.x);
     chunk.centre_y.push_back(centre.y);
     for (std::size_t q = 0; q < wanted.quantities.size(); ++q) {
@@ -110,7 +132,9 @@ ReportMesh read_mesh(const FrameFiles& frame) {
   mesh.corners.resize(grid.corners.size());
   for (std::size_t e = 0; e < mesh.elements; ++e) {
     for (std::size_t c = 0; c < 3; ++c) {
-      mesh.corners[c * mesh.elements + e] = static_cast<std::uint32_t>(grid.corners[3 * e + c]);
+      const auto corner = static_cast<std::size_t>(grid.corners[3 * e + c]);
+      check(corner < mesh.nodes, frame.bodies, "a triangle has a corner that is no node");
+      mesh.corners[c * mesh.elements + e] = static_cast<std::uint32_t>(corner);
     }
   }
   mesh.node_numbers = numbers_of(grid.point_fields, "node_number", mesh.nodes);
@@ -123,6 +147,7 @@ ReportMesh read_mesh(const FrameFiles& frame) {
     body = {body.node_end, nodes[b], body.element_end, elements[b]};
     mesh.bodies.push_back(body);
   }
+  mesh.shares = mass_shares(mesh, grid.points);
   mesh.fields = vtu_fields(frame.bodies);
   return mesh;
 }

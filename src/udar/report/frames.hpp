@@ -26,6 +26,7 @@ struct ReportMesh {
   std::vector<std::uint32_t> corners;  ///< first corners of all elements, then second, then third ones
   std::vector<std::uint32_t> node_numbers;
   std::vector<std::uint32_t> element_numbers;
+  std::vector<double> shares;  ///< of each node in the mass of its body
   std::vector<MeshBody> bodies;
   std::vector<std::string> fields;  ///< names of those that the frames have
 };
@@ -44,7 +45,7 @@ struct NodeForces {
 /// Frames that follow each other, as tables: a row for each frame.
 struct Chunk {
   std::vector<std::vector<float>> values;  ///< for each of the quantities asked for
-  std::vector<double> centre_x;            ///< m, of each body
+  std::vector<double> centre_x;            ///< m, centre of mass of each body
   std::vector<double> centre_y;
   NodeForces forces;
 };
@@ -52,7 +53,7 @@ struct Chunk {
 /// What shall be read.
 struct Wanted {
   std::vector<Quantity> quantities;
-  bool places = true;  ///< the middles of the bodies; with them the quantities that are places
+  bool places = true;  ///< the centres of mass; with them the quantities that are places
   bool forces = true;
 };
 

@@ -11,7 +11,7 @@ struct Quantity {
   std::string_view word;  ///< what a user calls it; empty: always there
   std::string_view unit;
   bool on_nodes = false;   ///< else on elements
-  std::string_view field;  ///< in the frame; empty: the place against the middle of the body
+  std::string_view field;  ///< in the frame; empty: the place against the body's centre of mass
   int component = 0;
   int bits = 0;  ///< always stored in so many; 0: as the limit of size allows
 };
