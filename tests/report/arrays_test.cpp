@@ -77,8 +77,19 @@ TEST_CASE("a rounded number is off by half a step at most, whatever the range") 
       // range.
       CHECK(off_by(values, array) <= 0.5 + 1e-4);
       const auto [least, most] = std::minmax_element(values.begin(), values.end());
-      CHECK(array.step == doctest::Approx((*most - *least) / (std::pow(2.0, bits) - 1)));
+      // Between both signs one number is given for it that 0 is one of them.
+      const bool zero_inside = low < 0 && bits > 1;
+      CHECK(array.step ==
+            doctest::Approx((*most - *least) / (std::pow(2.0, bits) - (zero_inside ? 2 : 1))).epsilon(1e-9));
     }
+  }
+}
+
+TEST_CASE("between values of both signs, what is 0 stays 0") {
+  for (const int bits : {8, 10, 12, 16}) {
+    const std::vector<double> values{-3.7e8, 0, 1.1, 2.3e8};
+    const PackedArray array = pack_rounded(values, 4, bits);
+    CHECK(decoded(description(array), array.text)[1] == 0);
   }
 }
 

@@ -147,8 +147,8 @@ TEST_CASE("places are the centre of mass of the body and what is against it") {
     for (std::size_t frame = 0; frame < times.size(); ++frame) {
       const auto row = std::find(history.at("time").begin(), history.at("time").end(), times[frame]);
       if (row == history.at("time").end()) continue;
-      const double position = history.at(c == 0 ? "position_x" : "position_y")[static_cast<std::size_t>(
-          row - history.at("time").begin())];
+      const double position =
+          history.at(c == 0 ? "position_x" : "position_y")[static_cast<std::size_t>(row - history.at("time").begin())];
       CHECK(std::fabs(centres[c][frame] - position) <= 4e-9);
     }
     CHECK(times.front() == history.at("time").front());

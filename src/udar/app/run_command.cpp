@@ -27,7 +27,8 @@ constexpr const char* run_footer = R"(Examples:
   udar run cases/short-beam/short-beam.toml --set run.end_time="0.5 ms" --set output.fields_every="5 us"
   udar run cases/short-beam/short-beam.toml --output runs/again --force
 
-Ctrl-C finishes the step and saves everything; a second one stops at once.)";
+Ctrl-C finishes the step and saves everything; a second one stops at once.
+While report.html is made, Ctrl-C goes without it.)";
 
 struct RunArguments {
   CaseArguments input;
@@ -118,14 +119,15 @@ struct Made {
 Made make_report(const fs::path& folder) {
   const bool terminal = isatty(STDOUT_FILENO) == 1;
   if (terminal) {
-    say("making report.html ...");
+    say("making report.html ... (Ctrl-C: go without)");
     flush_terminal();
   }
   Made made;
-  const int before = caught_signal;  // a run that was interrupted has a report too
+  const int stopped_by = caught_signal;  // a run that was interrupted has a report too, unless another signal comes
+  caught_signal = 0;
   try {
     ReportOptions options;
-    options.interrupted = [before] { return caught_signal != before; };
+    options.interrupted = [] { return caught_signal != 0; };
     const ReportInfo info = write_report(folder, options);
     made.interrupted = info.path.empty();
     made.report = !made.interrupted;
@@ -140,6 +142,7 @@ Made make_report(const fs::path& folder) {
   } catch (const std::bad_alloc&) {
     made.notes.emplace_back("no report.html: not enough memory");
   }
+  if (caught_signal == 0) caught_signal = stopped_by;
   if (terminal) say("\r\x1b[K");
   return made;
 }

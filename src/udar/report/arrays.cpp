@@ -96,7 +96,7 @@ PackedArray rounded(std::span<const Value> values, std::size_t columns, int bits
   auto most = static_cast<Number>(none >> (8 * static_cast<int>(sizeof(Number)) - bits));
   if (range.has_none && most == none) --most;
   // Between values of both signs 0 has a number of its own: what is nothing stays nothing.
-  const bool both_signs = range.low < 0 && range.high > 0;
+  const bool both_signs = range.low < 0 && range.high > 0 && most > 1;
   const double step = (range.high - range.low) / (both_signs ? most - 1 : most);
   const double low = both_signs ? -step * std::ceil(-range.low / step) : range.low;
   std::vector<Number> numbers(values.size());

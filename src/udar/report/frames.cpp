@@ -58,7 +58,8 @@ void add_component(const VtuArray& field, int component, std::vector<float>& out
 }
 
 /// The share of each node in the mass of its body: a third of the areas of its triangles over the area of the body. A
-/// body is of one density and thickness, so these are the lumped masses of the run, where the frame is that of its start.
+/// body is of one density and thickness, so these are the lumped masses of the run, where the frame is that of its
+/// start.
 std::vector<double> mass_shares(const ReportMesh& mesh, std::span<const Vec2> points) {
   std::vector<double> shares(mesh.nodes);
   for (const MeshBody& body : mesh.bodies) {
