@@ -11,7 +11,9 @@
 
 #include "udar/app/commands.hpp"
 #include "udar/app/terminal.hpp"
+#include "udar/output/run_pictures.hpp"
 #include "udar/output/summarise.hpp"
+#include "udar/report/drawing.hpp"
 #include "udar/simulation/last_good.hpp"
 #include "udar/simulation/simulation.hpp"
 #include "udar/step/integrators.hpp"
@@ -22,8 +24,9 @@ namespace {
 
 using std::chrono::steady_clock;
 
-constexpr const char* check_footer = R"(Example:
-  udar check cases/short-beam/short-beam.toml --set bodies.beam.mesh.element_size="0.5 cm")";
+constexpr const char* check_footer = R"(Examples:
+  udar check cases/short-beam/short-beam.toml --set bodies.beam.mesh.element_size="0.5 cm"
+  udar check cases/short-beam/short-beam.toml --picture setup.png)";
 
 /// One row of the report; rows of one kind say so only once.
 void row(std::string_view label, std::string_view name, const std::string& text) {
@@ -191,13 +194,25 @@ void print_cost(const Model& model, State& state, Workspace& work) {
   row("time", "", fmt::format("about {:.2g} s with {}, and what writing the fields takes", steps * each, threads));
 }
 
-ExitCode describe_case(const CaseArguments& arguments) {
+struct CheckArguments {
+  CaseArguments input;
+  std::string picture;  ///< file; empty: none
+  int width = 1600;     ///< px, of a PNG
+};
+
+ExitCode describe_case(const CheckArguments& check) {
+  const CaseArguments& arguments = check.input;
+  if (!check.picture.empty()) check_drawing(check.picture);
   std::vector<Diagnostic> warnings;
   const Simulation simulation(load_case(arguments.file, arguments.assignments, &warnings));
   const Model& model = simulation.model();
   Workspace work(model, threads_for(model));
   State state = start(model, work);
   print_warnings(warnings);
+  if (!check.picture.empty()) {
+    const std::string title = std::filesystem::path(arguments.file).stem().string();
+    write_drawing(check.picture, to_svg(setup_picture(model, state, title)), check.width);
+  }
 
   say("{}\n", std::filesystem::path(arguments.file).stem().string());
   row("run", "",
@@ -210,6 +225,7 @@ ExitCode describe_case(const CaseArguments& arguments) {
   print_observers(model);
   print_time_step(model, state.clock);
   print_cost(model, state, work);
+  if (!check.picture.empty()) row("picture", "", check.picture);
   say("0 errors, {}; nothing was run\n", counted(static_cast<long long>(warnings.size()), "warning"));
   return ExitCode::done;
 }
@@ -219,8 +235,10 @@ ExitCode describe_case(const CaseArguments& arguments) {
 Command add_check(CLI::App& app) {
   CLI::App* words = app.add_subcommand("check", "Find every mistake in a case and tell what a run would be like");
   words->footer(check_footer);
-  const auto arguments = std::make_shared<CaseArguments>();
-  add_case_options(*words, *arguments);
+  const auto arguments = std::make_shared<CheckArguments>();
+  add_case_options(*words, arguments->input);
+  words->add_option("--picture", arguments->picture, "Draw the set-up into this .svg, .png or .pdf")->type_name("FILE");
+  add_width_option(*words, arguments->width);
   return {words, [arguments] { return describe_case(*arguments); }};
 }
 

@@ -25,6 +25,7 @@ Command add_run(CLI::App& app);
 Command add_check(CLI::App& app);
 Command add_report(CLI::App& app);
 Command add_keys(CLI::App& app);
+Command add_picture(CLI::App& app);
 
 /// A case and the changes made to it, as several commands take them.
 struct CaseArguments {
@@ -32,5 +33,8 @@ struct CaseArguments {
   std::vector<std::string> assignments;  ///< of --set
 };
 void add_case_options(CLI::App& command, CaseArguments& arguments);
+
+/// --width of a picture, px.
+void add_width_option(CLI::App& command, int& width);
 
 }  // namespace udar

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "udar/base/error.hpp"
+#include "udar/base/text.hpp"
 
 namespace udar {
 
@@ -24,9 +25,6 @@ int flush_terminal();
 
 /// To the standard error, as mistakes are told.
 void print_warnings(const std::vector<Diagnostic>& warnings);
-
-/// A number with four digits and the prefix that suits it: "264 ns", "1.567 MN"; "-" where there is none.
-std::string in_units(double value, std::string_view unit);
 
 /// "1 thread", "2 threads".
 std::string counted(long long count, std::string_view what);

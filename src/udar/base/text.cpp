@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace udar {
 namespace {
@@ -50,5 +51,18 @@ std::string one_of(std::span<const std::string> words) {
 }
 
 std::string shortest(double value) { return fmt::format("{}", value); }
+
+std::string in_units(double value, std::string_view unit) {
+  constexpr std::string_view prefixes = "pnum kMGT";
+  if (!std::isfinite(value)) return "-";
+  if (value == 0) return fmt::format("0 {}", unit);
+  // Four digits first: 999.96 is 1000, and that is 1 k.
+  const double rounded = std::stod(fmt::format("{:.3e}", value));
+  const int thousands = std::clamp(static_cast<int>(std::floor(std::log10(std::fabs(rounded)) / 3)), -4, 4);
+  const int place = thousands + 4;
+  const char prefix = prefixes[static_cast<std::size_t>(place)];
+  return fmt::format("{:.4g} {}{}", value / std::pow(1000.0, thousands), prefix == ' ' ? "" : std::string(1, prefix),
+                     unit);
+}
 
 }  // namespace udar

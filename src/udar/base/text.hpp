@@ -16,4 +16,7 @@ std::string one_of(std::span<const std::string> words);
 /// Shortest decimal that reads back as the same double: "0.0025", "6.4e-08".
 std::string shortest(double value);
 
+/// A number with four digits and the prefix that suits it: "264 ns", "1.567 MN"; "-" where there is none.
+std::string in_units(double value, std::string_view unit);
+
 }  // namespace udar

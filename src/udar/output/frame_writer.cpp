@@ -238,19 +238,27 @@ VtuFrame body_frame(const Model& model, const State& state) {
   return frame;
 }
 
-std::vector<std::vector<Vec2>> obstacle_outlines(const Model& model, const State& state) {
+std::vector<ObstacleOutline> named_obstacle_outlines(const Model& model, const State& state) {
   const Box bodies = box_of_bodies(model, state);
   const double margin = 0.5 * std::max(bodies.size().x, bodies.size().y);
-  std::vector<std::vector<Vec2>> all;
-  for (const Obstacle& obstacle : model.obstacles) {
+  std::vector<ObstacleOutline> all;
+  for (std::size_t o = 0; o < model.obstacles.size(); ++o) {
+    const Obstacle& obstacle = model.obstacles[o];
     const Vec2 moved = state.clock.time.value() * obstacle.velocity;
     const Box view{bodies.low - moved, bodies.high - moved};
     for (const Polyline& line : outline(obstacle.prepared, view.grown(margin))) {
-      all.push_back(line.size() == 2 ? strip(obstacle.prepared, line, 0.4 * margin) : line);
-      if (all.back().front() == all.back().back()) all.back().pop_back();
-      for (Vec2& p : all.back()) p += moved;
+      std::vector<Vec2> points = line.size() == 2 ? strip(obstacle.prepared, line, 0.4 * margin) : line;
+      if (points.front() == points.back()) points.pop_back();
+      for (Vec2& p : points) p += moved;
+      all.push_back({o, std::move(points)});
     }
   }
+  return all;
+}
+
+std::vector<std::vector<Vec2>> obstacle_outlines(const Model& model, const State& state) {
+  std::vector<std::vector<Vec2>> all;
+  for (ObstacleOutline& outline : named_obstacle_outlines(model, state)) all.push_back(std::move(outline.points));
   return all;
 }
 

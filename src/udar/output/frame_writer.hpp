@@ -22,7 +22,14 @@ namespace udar {
 VtuFrame body_frame(const Model& model, const State& state);
 /// The obstacles where they stand at t_n, as closed polygons; of endless ones a strip beside the bodies.
 VtuGrid obstacle_grid(const Model& model, const State& state);
-/// The same outlines, obstacle by obstacle, m.
+/// One closed outline of an obstacle.
+struct ObstacleOutline {
+  std::size_t obstacle = 0;  ///< number in the model
+  std::vector<Vec2> points;  ///< m
+};
+/// The same outlines, obstacle by obstacle.
+std::vector<ObstacleOutline> named_obstacle_outlines(const Model& model, const State& state);
+/// The same without the numbers, m.
 std::vector<std::vector<Vec2>> obstacle_outlines(const Model& model, const State& state);
 
 /// Writes frames into the run folder: at every multiple of the interval, at the times asked for, each at the first t_n

@@ -16,32 +16,8 @@ constexpr double margin = 28;
 constexpr double largest_plot_height = 640;
 constexpr double footer_height = 66;
 
-/// The bodies, whole obstacles where they are not much larger, and the nearest part of larger ones; m.
-Extent choose_view(const Picture& picture) {
-  Extent bodies = bounds(picture.points);
-  for (const PictureMarker& marker : picture.markers) bodies.add(bounds({&marker.at, 1}));
-  if (bodies.empty()) {
-    for (const auto& polygon : picture.obstacles) bodies.add(bounds(polygon));
-  }
-  if (bodies.empty()) return {{-1, -0.5}, {1, 0.5}};
-  double extent = std::max(bodies.size().x, bodies.size().y);
-  if (!(extent > 0)) extent = 1;
-  const Extent near = bodies.grown(0.15 * extent);
-  Extent view = bodies;
-  for (const auto& polygon : picture.obstacles) {
-    const Extent box = bounds(polygon);
-    if (box.empty()) continue;
-    if (bodies.grown(0.75 * extent).contains(box)) {
-      view.add(box);
-    } else if (near.overlaps(box)) {
-      view.add(near.common_with(box));
-    }
-  }
-  return view.grown(0.05 * extent);
-}
-
 PicturePage lay_out(const Picture& picture) {
-  PicturePage page{.view = choose_view(picture), .left = margin, .right = width - margin};
+  PicturePage page{.view = picture.view ? *picture.view : view_of(picture), .left = margin, .right = width - margin};
   const double plot_width = page.right - page.left;
   const Vec2 size = page.view.size();
   page.scale = std::min(plot_width / size.x, largest_plot_height / size.y);
@@ -59,6 +35,32 @@ std::string polygon_path(const PicturePage& page, std::span<const Vec2> polygon)
   return path.text();
 }
 
+}  // namespace
+
+Extent view_of(const Picture& picture) {
+  Extent bodies = bounds(picture.points);
+  for (const PictureMarker& marker : picture.markers) bodies.add(bounds({&marker.at, 1}));
+  for (const PictureMarker& label : picture.labels) bodies.add(bounds({&label.at, 1}));
+  if (bodies.empty()) {
+    for (const auto& polygon : picture.obstacles) bodies.add(bounds(polygon));
+  }
+  if (bodies.empty()) return {{-1, -0.5}, {1, 0.5}};
+  double extent = std::max(bodies.size().x, bodies.size().y);
+  if (!(extent > 0)) extent = 1;
+  const Extent near = bodies.grown(0.3 * extent);
+  Extent view = bodies;
+  for (const auto& polygon : picture.obstacles) {
+    const Extent box = bounds(polygon);
+    if (box.empty()) continue;
+    if (bodies.grown(0.75 * extent).contains(box)) {
+      view.add(box);
+    } else if (near.overlaps(box)) {
+      view.add(near.common_with(box));
+    }
+  }
+  return view.grown((picture.dimensions ? 0.09 : 0.05) * extent);
+}
+
 void draw_obstacles(Svg& svg, const PicturePage& page, const Picture& picture) {
   const Extent around = page.view.grown(6 / page.scale);  // what is cut off is cut outside the plot
   for (const auto& outline_of_obstacle : picture.obstacles) {
@@ -72,7 +74,7 @@ void draw_obstacles(Svg& svg, const PicturePage& page, const Picture& picture) {
   }
 }
 
-std::string head(const PicturePage& page, double height) {
+std::string picture_head(double width, double height) {
   return fmt::format(
       R"svg(<svg xmlns="http://www.w3.org/2000/svg" width="{0:.0f}" height="{1:.0f}" viewBox="0 0 {0:.0f} {1:.0f}"
  font-family="Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif" font-size="{2}" fill="{3}">
@@ -80,14 +82,17 @@ std::string head(const PicturePage& page, double height) {
 <pattern id="hatch" width="7" height="7" patternUnits="userSpaceOnUse" patternTransform="rotate(45)">
 <line x1="0" y1="0" x2="0" y2="7" stroke="#aab3bc" stroke-width="1.6"/>
 </pattern>
-<clipPath id="plot"><rect x="{4:.1f}" y="{5:.1f}" width="{6:.1f}" height="{7:.1f}"/></clipPath>
 </defs>
 <rect width="100%" height="100%" fill="#ffffff"/>
 )svg",
-      width, height, picture_font_size, picture_ink, page.corner.x, page.corner.y, page.size.x, page.size.y);
+      width, height, picture_font_size, picture_ink);
 }
 
-}  // namespace
+std::string clip_of(const PicturePage& page) {
+  return fmt::format(
+      R"svg(<clipPath id="{}"><rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}"/></clipPath>)svg", page.clip,
+      page.corner.x, page.corner.y, page.size.x, page.size.y);
+}
 
 ColourRange colour_range(const PictureField& field) {
   double min = std::numeric_limits<double>::infinity();
@@ -118,16 +123,23 @@ std::string to_svg(const Picture& picture) {
   if (page.is_fine && !picture.field && !subtitle.empty()) subtitle += "; the mesh is too fine to be drawn";
   svg.text({page.left, 60}, subtitle, "start",
            fmt::format(R"(font-size="{:.1f}" fill="{}")", fitting(subtitle, picture_font_size), picture_grey));
-  svg.add(R"svg(<g clip-path="url(#plot)">)svg");
+  svg.add("{}", clip_of(page));
+  svg.add(R"svg(<g clip-path="url(#{})">)svg", page.clip);
   draw_obstacles(svg, page, picture);
   draw_bodies(svg, page, picture);
+  draw_forces(svg, page, picture);
   svg.add("</g>");
   draw_supports(svg, page, picture);
   draw_markers(svg, page, picture);
+  draw_dimensions(svg, page, picture);
+  const std::vector<Extent> tails = draw_loads(svg, page, picture);
   draw_arrows(svg, page, picture);
+  draw_spins(svg, page, picture);
+  draw_load_labels(svg, page, picture, tails);
   draw_marker_labels(svg, page, picture);
-  draw_legend(svg, page, picture);
-  return head(page, page.plot().high.y + footer_height) + svg.body + "</svg>\n";
+  draw_obstacle_names(svg, page, picture);
+  draw_legend(svg, page, picture, page.plot().high.y);
+  return picture_head(width, page.plot().high.y + footer_height) + svg.body + "</svg>\n";
 }
 
 }  // namespace udar

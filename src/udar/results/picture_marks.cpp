@@ -17,48 +17,6 @@ Extent text_box(Vec2 at, double words_width) {
   return {at - Vec2{0, 0.6 * picture_font_size}, at + Vec2{words_width, 0.6 * picture_font_size}};
 }
 
-/// Which sides of its place a label tries, in this order: x right (1) or left (-1), y down (1), level (0) or up (-1).
-using Sides = std::array<std::array<int, 2>, 6>;
-constexpr Sides level_first{{{1, 0}, {-1, 0}, {1, -1}, {1, 1}, {-1, -1}, {-1, 1}}};
-constexpr Sides above_first{{{1, -1}, {-1, -1}, {1, 0}, {-1, 0}, {1, 1}, {-1, 1}}};
-
-/// Puts `words` near `at` where nothing lies yet, further out if need be.
-void place_label(Svg& svg, PicturePage& page, Vec2 at, double clearance, const Sides& sides, std::string_view words) {
-  if (words.empty()) return;
-  const double words_width = text_width(words, picture_font_size);
-  const auto box_at = [&](std::array<int, 2> side, double distance) {
-    const double beside = side[1] == 0 ? distance : 0.5 * distance;
-    const double x = side[0] > 0 ? at.x + beside : at.x - beside - words_width;
-    return text_box({x, at.y + side[1] * 1.6 * distance}, words_width);
-  };
-  const auto is_free = [&](const Extent& box) {
-    return page.plot().contains(box) &&
-           std::none_of(page.taken.begin(), page.taken.end(), [&](const Extent& other) { return other.overlaps(box); });
-  };
-  Extent best = box_at(sides.front(), clearance);
-  for (std::size_t i = 0; i < 3 * sides.size(); ++i) {
-    const std::size_t round = i / sides.size();
-    const Extent box = box_at(sides[i % sides.size()], clearance + 12.0 * static_cast<double>(round));
-    if (!is_free(box)) continue;
-    best = box;
-    break;
-  }
-  page.taken.push_back(best);
-  svg.text({best.low.x, best.centre().y + 0.36 * picture_font_size}, words, "start", halo);
-}
-
-/// "20 mm" for a length in m that is 1, 2 or 5 times a power of ten.
-std::string length_text(double metres) {
-  struct Unit {
-    double size;
-    std::string_view name;
-  };
-  for (const Unit unit : {Unit{1e3, "km"}, Unit{1, "m"}, Unit{1e-2, "cm"}, Unit{1e-3, "mm"}, Unit{1e-6, "µm"}}) {
-    if (metres >= 0.999 * unit.size) return fmt::format("{:.4g} {}", metres / unit.size, unit.name);
-  }
-  return fmt::format("{:.4g} m", metres);
-}
-
 /// The largest of 1, 2 or 5 times a power of ten that is not above `value`.
 double round_down(double value) {
   const double power = std::pow(10, std::floor(std::log10(value)));
@@ -77,19 +35,11 @@ void draw_scale_bar(Svg& svg, const PicturePage& page, double top) {
   svg.text({x + 0.5 * metres * page.scale, y - 10}, length_text(metres), "middle");
 }
 
-/// Three digits, without an exponent where that is short: "-1230", "0.15", "5e+06".
-std::string number_text(double value) {
-  const double size = std::fabs(value);
-  if (size < 1e3 || size >= 1e6) return fmt::format("{:.3g}", value);
-  const double last_digit = size < 1e4 ? 10 : size < 1e5 ? 100 : 1000;
-  return fmt::format("{:.0f}", last_digit * std::round(value / last_digit));
-}
-
 void draw_colour_bar(Svg& svg, const PicturePage& page, const PictureField& field, double top) {
   constexpr double bar_width = 288;
   constexpr double bar_height = 11;
   const ColourRange range = colour_range(field);
-  const auto colours = picture_colours();
+  const auto colours = picture_colours(field.colours);
   const double step = bar_width / static_cast<double>(colours.size());
   const double left = page.right - bar_width;
   const double y = top + 24;
@@ -108,12 +58,47 @@ void draw_colour_bar(Svg& svg, const PicturePage& page, const PictureField& fiel
   svg.text({page.right, under}, (range.above ? "≥ " : "") + number_text(range.max), "end");
 }
 
-void draw_swatch(Svg& svg, const PicturePage& page, std::string_view name, double top) {
+/// What the light colours mean, from the right edge to the left.
+void draw_swatches(Svg& svg, const PicturePage& page, const PictureHighlight& highlight, double top) {
   constexpr double side = 14;
   const double y = top + 22;
-  svg.add(R"(<rect x="{:.1f}" y="{:.1f}" width="{}" height="{}" fill="{}" stroke="{}" stroke-width="0.8"/>)",
-          page.right - side, y, side, side, picture_highlight, picture_ink);
-  svg.text({page.right - side - 7, y + 0.85 * side}, name, "end");
+  double right = page.right;
+  for (const auto& [name, colour] :
+       {std::pair<std::string_view, std::string_view>{highlight.name, picture_highlight},
+        std::pair<std::string_view, std::string_view>{highlight.second_name, picture_second}}) {
+    if (name.empty()) continue;
+    svg.add(R"(<rect x="{:.1f}" y="{:.1f}" width="{}" height="{}" fill="{}" stroke="{}" stroke-width="0.8"/>)",
+            right - side, y, side, side, colour, picture_ink);
+    svg.text({right - side - 7, y + 0.85 * side}, name, "end");
+    right -= side + 34 + text_width(name, picture_font_size);
+  }
+}
+
+/// The largest size of the forces.
+double longest_force(const PictureForces& forces) {
+  double longest = forces.longest;
+  for (const Vec2 f : forces.value) {
+    if (forces.longest == 0 && is_finite(f)) longest = std::max(longest, length(f));
+  }
+  return longest;
+}
+
+constexpr double longest_force_arrow = 56;  ///< px
+
+void draw_force_legend(Svg& svg, const PicturePage& page, const PictureForces& forces, double top) {
+  const double y = top + 29;
+  const double longest = longest_force(forces);
+  if (!(longest > 0)) {
+    svg.text({page.right, y + 5}, "no contact", "end");
+    return;
+  }
+  const auto [factor, prefix] = longest >= 1e6   ? std::pair{1e-6, "M"}
+                                : longest >= 1e3 ? std::pair{1e-3, "k"}
+                                                 : std::pair{1.0, ""};
+  const std::string words = fmt::format("{} {}N, contact force on the bodies", number_text(factor * longest), prefix);
+  svg.text({page.right, y + 5}, words, "end");
+  const double tip = page.right - text_width(words, picture_font_size) - 12;
+  draw_arrow(svg, {tip - longest_force_arrow, y}, {tip, y}, 1.4, picture_force);
 }
 
 /// The middle of an arrow moved aside until no marker lies on it.
@@ -141,6 +126,64 @@ double support_turn(const PictureSupport& support, const Extent& bodies) {
 }
 
 }  // namespace
+
+std::string length_text(double metres) {
+  struct Unit {
+    double size;
+    std::string_view name;
+  };
+  for (const Unit unit : {Unit{1e3, "km"}, Unit{1, "m"}, Unit{1e-2, "cm"}, Unit{1e-3, "mm"}, Unit{1e-6, "µm"}}) {
+    if (metres >= 0.999 * unit.size) return fmt::format("{:.4g} {}", metres / unit.size, unit.name);
+  }
+  return fmt::format("{:.4g} m", metres);
+}
+
+std::string number_text(double value) {
+  const double size = std::fabs(value);
+  if (size < 1e3 || size >= 1e6) return fmt::format("{:.3g}", value);
+  const double last_digit = size < 1e4 ? 10 : size < 1e5 ? 100 : 1000;
+  return fmt::format("{:.0f}", last_digit * std::round(value / last_digit));
+}
+
+void place_label(Svg& svg, PicturePage& page, Vec2 at, double clearance, const LabelSides& sides,
+                 std::string_view words) {
+  if (words.empty()) return;
+  const double words_width = text_width(words, picture_font_size);
+  const auto box_at = [&](std::array<int, 2> side, double distance) {
+    const double beside = side[1] == 0 ? distance : 0.5 * distance;
+    const double x = side[0] > 0 ? at.x + beside : at.x - beside - words_width;
+    return text_box({x, at.y + side[1] * 1.6 * distance}, words_width);
+  };
+  const auto is_free = [&](const Extent& box) {
+    return page.plot().contains(box) &&
+           std::none_of(page.taken.begin(), page.taken.end(), [&](const Extent& other) { return other.overlaps(box); });
+  };
+  for (std::size_t i = 0; i < 3 * sides.size(); ++i) {
+    const std::size_t round = i / sides.size();
+    const Extent box = box_at(sides[i % sides.size()], clearance + 12.0 * static_cast<double>(round));
+    if (!is_free(box)) continue;
+    page.taken.push_back(box);
+    svg.text({box.low.x, box.centre().y + 0.36 * picture_font_size}, words, "start", halo);
+    return;
+  }
+}
+
+void draw_arrow(Svg& svg, Vec2 tail, Vec2 tip, double line, std::string_view colour) {
+  const double size = length(tip - tail);
+  if (!(size > 0)) return;
+  const Vec2 direction = (1 / size) * (tip - tail);
+  const double head = std::min(4.2 * line, 0.6 * size);  // a short arrow must not be all head
+  const Vec2 neck = tip - head * direction;
+  const Vec2 side = 0.45 * head * perpendicular(direction);
+  const auto draw = [&](std::string_view paint, double width, double edge) {
+    svg.add(R"(<path d="M{:.1f} {:.1f}L{:.1f} {:.1f}" stroke="{}" stroke-width="{:.1f}"/>)"
+            R"(<path d="M{:.1f} {:.1f}L{:.1f} {:.1f} {:.1f} {:.1f}z" fill="{}" stroke="{}" stroke-width="{:.1f}"/>)",
+            tail.x, tail.y, neck.x, neck.y, paint, width, tip.x, tip.y, neck.x + side.x, neck.y + side.y,
+            neck.x - side.x, neck.y - side.y, paint, paint, edge);
+  };
+  draw("#ffffff", line + 2, 3);
+  draw(colour, line, 0.5);
+}
 
 void draw_supports(Svg& svg, const PicturePage& page, const Picture& picture) {
   constexpr double closest = 17;
@@ -173,18 +216,10 @@ void draw_arrows(Svg& svg, PicturePage& page, const Picture& picture) {
     const Vec2 middle = beside_markers(page, picture, page.place(arrow.at), half, direction);
     const Vec2 tip = middle + half * direction;
     const Vec2 tail = middle - half * direction;
-    const Vec2 neck = tip - 11 * direction;
+    draw_arrow(svg, tail, tip, 2.6, picture_accent);
     const Vec2 side = 5 * perpendicular(direction);
-    const auto draw = [&](std::string_view colour, double line, double edge) {
-      svg.add(R"(<path d="M{:.1f} {:.1f}L{:.1f} {:.1f}" stroke="{}" stroke-width="{}"/>)"
-              R"(<path d="M{:.1f} {:.1f}L{:.1f} {:.1f} {:.1f} {:.1f}z" fill="{}" stroke="{}" stroke-width="{}"/>)",
-              tail.x, tail.y, neck.x, neck.y, colour, line, tip.x, tip.y, neck.x + side.x, neck.y + side.y,
-              neck.x - side.x, neck.y - side.y, colour, colour, edge);
-    };
-    draw("#ffffff", 6, 4);
-    draw(picture_accent, 2.6, 0.5);
     Extent box;
-    for (const Vec2 point : {tip, tail, neck + side, neck - side}) box.add(point);
+    for (const Vec2 point : {tip + side, tail, tip - side}) box.add(point);
     page.taken.push_back(box.grown(3));
     place_label(svg, page, middle, 10 + 0.5 * box.size().x, level_first, arrow.label);
   }
@@ -205,15 +240,38 @@ void draw_marker_labels(Svg& svg, PicturePage& page, const Picture& picture) {
     if (!is_finite(marker.at)) continue;
     place_label(svg, page, page.place(marker.at), marker_radius + 6, above_first, marker.label);
   }
+  for (const PictureMarker& label : picture.labels) {
+    if (is_finite(label.at)) place_label(svg, page, page.place(label.at), 9, above_first, label.label);
+  }
 }
 
-void draw_legend(Svg& svg, const PicturePage& page, const Picture& picture) {
-  const double top = page.plot().high.y;
+void draw_forces(Svg& svg, const PicturePage& page, const Picture& picture) {
+  if (!picture.forces) return;
+  const double longest = longest_force(*picture.forces);
+  if (!(longest > 0)) return;
+  for (std::size_t k = 0; k < picture.forces->at.size(); ++k) {
+    const Vec2 force = picture.forces->value[k];
+    const Vec2 arrow = longest_force_arrow / longest * Vec2{force.x, -force.y};
+    if (!is_finite(picture.forces->at[k]) || !is_finite(force) || length(arrow) < 1) continue;
+    const Vec2 tail = page.place(picture.forces->at[k]);
+    draw_arrow(svg, tail, tail + arrow, 1.4, picture_force);
+  }
+}
+
+void draw_legend(Svg& svg, const PicturePage& page, const Picture& picture, double top) {
   draw_scale_bar(svg, page, top);
   if (picture.field) {
     draw_colour_bar(svg, page, *picture.field, top);
   } else if (picture.highlight) {
-    draw_swatch(svg, page, picture.highlight->name, top);
+    draw_swatches(svg, page, *picture.highlight, top);
+  } else if (picture.forces) {
+    draw_force_legend(svg, page, *picture.forces, top);
+  }
+  if (length(picture.gravity) > 0) {
+    const Vec2 direction = (1 / length(picture.gravity)) * Vec2{picture.gravity.x, -picture.gravity.y};
+    const Vec2 middle{page.left + 240, top + 28};
+    draw_arrow(svg, middle - 13 * direction, middle + 13 * direction, 1.8, picture_grey);
+    svg.text(middle + Vec2{22, 5}, fmt::format("gravity {} m/s²", number_text(length(picture.gravity))));
   }
 }
 

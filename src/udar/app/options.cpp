@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 
 #include "udar/app/commands.hpp"
+#include "udar/app/terminal.hpp"
 
 namespace udar {
 
@@ -11,6 +12,12 @@ void add_case_options(CLI::App& command, CaseArguments& arguments) {
                   "Replace a value of the case, as often as needed: --set bodies.beam.thickness=\"2 cm\"")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+}
+
+void add_width_option(CLI::App& command, int& width) {
+  command.add_option("--width", width, fmt::format("Width of a PNG or movie in px, 100 to 10000; {} by itself", width))
+      ->type_name("PX")
+      ->check(CLI::Range(100, 10000).description(""));
 }
 
 }  // namespace udar

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "udar/app/commands.hpp"
+#include "udar/report/frame_picture.hpp"
+
+namespace udar {
+
+/// What `udar picture` and `udar movie` both take, as given.
+struct PictureArguments {
+  std::string field = "plastic";
+  std::string range;
+  std::string unit;
+  std::string view;
+  std::string follow;
+  bool mesh = true;
+  bool smooth = false;
+  int width = 1600;
+  std::string output;
+};
+
+void add_picture_options(CLI::App& command, PictureArguments& arguments);
+
+/// The options for the frames of a run. Throws UserError (usage).
+FrameView frame_view(const PictureArguments& arguments, const std::filesystem::path& run);
+
+/// A time of the command line, s. Throws UserError (usage).
+double time_of_option(std::string_view option, std::string_view text);
+
+/// The numbers of `words`, with commas between them.
+std::vector<std::string> split_list(std::string_view words, char separator);
+
+}  // namespace udar

@@ -1,0 +1,51 @@
+#include "udar/report/ticks.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace udar {
+namespace {
+
+/// The smallest of 1, 2, 5 times a power of ten that is not below `value`.
+double round_up(double value) {
+  const double power = std::pow(10, std::floor(std::log10(value)));
+  for (const double digit : {1.0, 2.0, 5.0}) {
+    if (digit * power >= value * (1 - 1e-9)) return digit * power;
+  }
+  return 10 * power;
+}
+
+}  // namespace
+
+std::string Ticks::text(double value) const {
+  if (std::fabs(value) < 1e-9 * step) return "0";
+  const double largest = std::max(std::fabs(values.front()), std::fabs(values.back()));
+  if (largest >= 1e6 || largest < 1e-4) return fmt::format("{:.4g}", value);
+  const int digits = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
+  std::string number = fmt::format("{:.{}f}", value, digits);
+  if (number[0] == '-') number = "−" + number.substr(1);
+  return number;
+}
+
+Ticks ticks_over(double low, double high, int wanted) {
+  if (!(high > low)) high = low + (low == 0 ? 1 : std::fabs(low));
+  Ticks ticks;
+  ticks.step = round_up((high - low) / std::max(1, wanted));
+  // Whole multiples, so that no rounding adds up; a hair outside still counts as on the tick.
+  const double first = std::floor(low / ticks.step + 1e-9);
+  const double last = std::ceil(high / ticks.step - 1e-9);
+  for (double k = first; k <= last; ++k) ticks.values.push_back(k * ticks.step);
+  return ticks;
+}
+
+Ticks ticks_within(double low, double high, int wanted) {
+  Ticks ticks = ticks_over(low, high, wanted);
+  const double hair = 1e-9 * ticks.step;
+  std::erase_if(ticks.values, [&](double v) { return v < low - hair || v > high + hair; });
+  if (ticks.values.empty()) ticks.values.push_back(low);
+  return ticks;
+}
+
+}  // namespace udar
