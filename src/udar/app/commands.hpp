@@ -25,7 +25,9 @@ Command add_run(CLI::App& app);
 Command add_check(CLI::App& app);
 Command add_report(CLI::App& app);
 Command add_keys(CLI::App& app);
+Command add_plot(CLI::App& app);
 Command add_picture(CLI::App& app);
+Command add_movie(CLI::App& app);
 
 /// A case and the changes made to it, as several commands take them.
 struct CaseArguments {

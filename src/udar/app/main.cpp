@@ -33,7 +33,7 @@ Exit codes:
                            failure                       with everything saved)";
 
 /// What adds each command, in the order of the help.
-constexpr std::array add_commands{add_run, add_check, add_report, add_picture, add_keys};
+constexpr std::array add_commands{add_run, add_check, add_report, add_plot, add_picture, add_movie, add_keys};
 
 std::vector<std::string> names_of(const CLI::App& app) {
   std::vector<std::string> names;

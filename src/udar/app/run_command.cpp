@@ -2,14 +2,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <csignal>
-#include <ctime>
 #include <filesystem>
 #include <functional>
 #include <memory>
 #include <new>
 
 #include "udar/app/commands.hpp"
+#include "udar/app/signals.hpp"
 #include "udar/app/status_line.hpp"
 #include "udar/app/terminal.hpp"
 #include "udar/report/report.hpp"
@@ -37,21 +36,6 @@ struct RunArguments {
   bool no_report = false;
   int threads = 0;
 };
-
-volatile std::sig_atomic_t caught_signal = 0;
-volatile std::sig_atomic_t caught_at = 0;  // s
-
-extern "C" void note_signal(int signal) {
-  // Some tools send a signal to a process and again to its group: only one that comes later ends the program at once.
-  const auto now = static_cast<std::sig_atomic_t>(std::time(nullptr));
-  if (caught_signal != 0 && now > caught_at + 1) {
-    std::signal(signal, SIG_DFL);
-    std::raise(signal);
-  }
-  if (caught_signal != 0) return;
-  caught_signal = signal;
-  caught_at = now;
-}
 
 /// runs/<case>, or the first of runs/<case>-2, -3, ... that is not there: a run never replaces another unasked.
 fs::path folder_for(const RunArguments& arguments, const std::string& case_name) {
@@ -171,7 +155,7 @@ ExitCode exit_code_of(const Summary& s) {
   if (s.stop_reason == "numerical") return ExitCode::numerical;
   if (s.stop_reason == "disk") return ExitCode::output;
   if (s.stop_reason != "interrupted") return ExitCode::done;
-  return caught_signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted;
+  return code_of_signal();
 }
 
 /// Runs the case. Its memory is free again at the end.
@@ -188,9 +172,8 @@ Summary compute(const RunArguments& arguments, RunOptions& options, bool& report
   constexpr std::size_t largest_case = 1 << 20;
   options.case_text = read_file(arguments.input.file, largest_case);
   options.command = command_text(arguments);
-  options.interrupted = [] { return caught_signal != 0; };
-  std::signal(SIGINT, note_signal);
-  std::signal(SIGTERM, note_signal);
+  options.interrupted = is_interrupted;
+  catch_signals();
 
   const Model& model = simulation.model();
   bool announced = false;

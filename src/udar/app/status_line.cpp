@@ -1,8 +1,5 @@
 #include "udar/app/status_line.hpp"
 
-#include <sys/ioctl.h>
-#include <unistd.h>
-
 #include <cmath>
 
 #include "udar/app/terminal.hpp"
@@ -14,25 +11,10 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-std::string clock_text(double seconds) {
-  constexpr double longest = 100 * 3600;
-  if (!(seconds < longest)) return "> 99 h";
-  const auto whole = std::llround(seconds);
-  if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
-  return fmt::format("{:02}:{:02}", whole / 60, whole % 60);
-}
-
-/// Characters in a row of the terminal; a longer line would wrap and could not be rewritten.
-std::size_t terminal_width() {
-  winsize size{};
-  const bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-  return known ? size.ws_col : 80;
-}
-
 }  // namespace
 
 StatusLine::StatusLine(double end_time)
-    : terminal_(isatty(STDOUT_FILENO) == 1), unit_(unit_for(end_time)), begin_(steady_clock::now()) {
+    : terminal_(is_terminal()), unit_(unit_for(end_time)), begin_(steady_clock::now()) {
   next_ = begin_ + (terminal_ ? milliseconds(200) : milliseconds(5000));
 }
 
@@ -67,21 +49,12 @@ void StatusLine::print(const Model& model, const State& state, const std::string
   std::uint64_t contacts = 0;
   for (const ContactBook& obstacle : state.obstacles) contacts += obstacle.touching;
   for (const PairBook& pair : state.pairs) contacts += pair.book.touching;
-  print_line(fmt::format("{:>9} {:>9.4f} {:>4.0f}  {:<6} {:>7.4g}  {:<25} {:>8.2g} % {:>9}", clock.step,
-                         unit_.per_second * clock.time.value(),
-                         std::floor(100 * clock.time.value() / model.run.end_time), left,
-                         step_unit_.per_second * clock.last_step,
-                         element_name(model, clock.limit.element) + (clock.limit.by_contact != 0 ? " + contact" : ""),
-                         100 * state.ledger.energy_error(), contacts));
-}
-
-void StatusLine::print_line(const std::string& line) const {
-  if (terminal_) {
-    say("\r{}\x1b[K", line.substr(0, terminal_width() - 1));
-  } else {
-    say("{}\n", line);
-  }
-  flush_terminal();
+  say_in_place(fmt::format("{:>9} {:>9.4f} {:>4.0f}  {:<6} {:>7.4g}  {:<25} {:>8.2g} % {:>9}", clock.step,
+                           unit_.per_second * clock.time.value(),
+                           std::floor(100 * clock.time.value() / model.run.end_time), left,
+                           step_unit_.per_second * clock.last_step,
+                           element_name(model, clock.limit.element) + (clock.limit.by_contact != 0 ? " + contact" : ""),
+                           100 * state.ledger.energy_error(), contacts));
 }
 
 }  // namespace udar

@@ -25,7 +25,6 @@ class StatusLine {
   };
   static TimeUnit unit_for(double time);
   void print(const Model& model, const State& state, const std::string& left);
-  void print_line(const std::string& line) const;
 
   bool terminal_;
   bool headed_ = false;

@@ -1,6 +1,10 @@
 #include "udar/app/terminal.hpp"
 
+#include <sys/ioctl.h>
+#include <unistd.h>
+
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 
 namespace udar {
@@ -10,6 +14,13 @@ int first_error = 0;
 
 void note_error() {
   if (first_error == 0) first_error = errno;
+}
+
+/// Characters in a row of the terminal; a longer line would wrap and could not be rewritten.
+std::size_t terminal_width() {
+  winsize size{};
+  const bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return known ? size.ws_col : 80;
 }
 
 }  // namespace
@@ -27,6 +38,25 @@ int flush_terminal() {
 void print_warnings(const std::vector<Diagnostic>& warnings) {
   constexpr std::size_t word = std::string_view("error").size();
   for (const Diagnostic& w : warnings) fmt::print(stderr, "warning{}", to_text(w).substr(word));
+}
+
+bool is_terminal() { return isatty(STDOUT_FILENO) == 1; }
+
+void say_in_place(const std::string& line) {
+  if (is_terminal()) {
+    say("\r{}\x1b[K", line.substr(0, terminal_width() - 1));
+  } else {
+    say("{}\n", line);
+  }
+  flush_terminal();
+}
+
+std::string clock_text(double seconds) {
+  constexpr double longest = 100 * 3600;
+  if (!(seconds < longest)) return "> 99 h";
+  const auto whole = std::llround(seconds);
+  if (whole >= 3600) return fmt::format("{}:{:02}:{:02}", whole / 3600, whole / 60 % 60, whole % 60);
+  return fmt::format("{:02}:{:02}", whole / 60, whole % 60);
 }
 
 std::string counted(long long count, std::string_view what) {

@@ -26,6 +26,13 @@ int flush_terminal();
 /// To the standard error, as mistakes are told.
 void print_warnings(const std::vector<Diagnostic>& warnings);
 
+/// Is the standard output a terminal?
+bool is_terminal();
+/// A line that on a terminal takes the place of the one before; elsewhere one more line.
+void say_in_place(const std::string& line);
+/// "02:05", "1:00:00".
+std::string clock_text(double seconds);
+
 /// "1 thread", "2 threads".
 std::string counted(long long count, std::string_view what);
 

@@ -33,8 +33,8 @@ constexpr std::array kinds{
     FieldKind{"acceleration", "", "acceleration", "acceleration_m_per_s2", "m/s^2", Of::size},
     FieldKind{"acceleration_x", "", "acceleration x", "acceleration_m_per_s2", "m/s^2", Of::x},
     FieldKind{"acceleration_y", "", "acceleration y", "acceleration_m_per_s2", "m/s^2", Of::y},
-    FieldKind{"flows", "flows_now", "plastic zone", "flows_now", "", Of::flow},
-    FieldKind{"contact", "contact_force", "contact force", "contact_force_N", "N", Of::contact},
+    FieldKind{"flows_now", "flows", "plastic zone", "flows_now", "", Of::flow},
+    FieldKind{"contact_force", "contact", "contact force", "contact_force_N", "N", Of::contact},
     FieldKind{"none", "", "", "", "", Of::no_values},
 };
 
@@ -75,7 +75,9 @@ const FieldKind& find_field(std::string_view name) {
     names.emplace_back(kind.name);
     if (!kind.short_name.empty()) names.emplace_back(kind.short_name);
   }
-  const std::string near = nearest_word(name, names);
+  std::string near = nearest_word(name, names);
+  const auto begun = std::find_if(names.begin(), names.end(), [&](const auto& n) { return n.starts_with(name); });
+  if (near.empty() && !name.empty() && begun != names.end()) near = *begun;
   names.clear();
   for (const FieldKind& kind : kinds) names.emplace_back(kind.short_name.empty() ? kind.name : kind.short_name);
   throw UserError(ExitCode::usage, fmt::format("there is no field `{}`", name),

@@ -123,13 +123,17 @@ void FrameSurvey::paint(const Frame& frame, Picture& picture) const {
     return;
   }
   if (!kind.has_values()) return;
-  const auto [low, high] = view_.range ? *view_.range : round_range(low_, high_);
-  const HumanUnit unit = view_.unit ? *view_.unit : human_unit(kind.unit, std::max(std::fabs(low), std::fabs(high)));
+  const double largest =
+      view_.range ? std::max(std::fabs(view_.range->first), std::fabs(view_.range->second)) : std::max(-low_, high_);
+  const HumanUnit unit = view_.unit ? *view_.unit : human_unit(kind.unit, largest);
+  // Round in the unit that is shown.
+  const auto [low, high] = view_.range ? std::pair{view_.range->first / unit.size, view_.range->second / unit.size}
+                                       : round_range(low_ / unit.size, high_ / unit.size);
   PictureField field{.name = std::string(kind.caption),
                      .unit = unit.name,
                      .values = view_.smooth ? node_values(frame, kind) : element_values(frame, kind),
-                     .min = low / unit.size,
-                     .max = high / unit.size};
+                     .min = low,
+                     .max = high};
   for (double& value : field.values) value /= unit.size;
   const bool about_zero = low < 0 && std::fabs(low + high) <= 1e-9 * high;
   field.colours = about_zero ? ColourMap::two_sided : ColourMap::rising;

@@ -23,7 +23,7 @@ struct Spoken {
   int most;
 };
 constexpr std::array<Spoken, 7> spoken{
-    {{"s", -9, 0}, {"m", -6, 3}, {"Pa", 0, 9}, {"N", -3, 6}, {"J", -3, 9}, {"N s", -3, 6}, {"N m", -3, 6}}};
+    {{"s", -9, 0}, {"m", -6, 3}, {"Pa", 0, 6}, {"N", -3, 6}, {"J", -3, 9}, {"N s", -3, 6}, {"N m", -3, 6}}};
 
 std::string superscript(int number) {
   constexpr std::array<std::string_view, 10> digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};

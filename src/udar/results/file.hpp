@@ -73,6 +73,8 @@ class FileReplacement {
   /// Puts the file in its place before it is on the disk: only a power cut or a crash of the system can damage it until
   /// `sync_file` has been called with what is returned, and `sync_folder`.
   [[nodiscard]] Descriptor commit_unsynced();
+  /// Where it lies until then: another program may write there.
+  [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
 
  private:
   std::filesystem::path path_;

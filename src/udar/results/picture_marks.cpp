@@ -96,8 +96,8 @@ void draw_force_legend(Svg& svg, const PicturePage& page, const PictureForces& f
                                 : longest >= 1e3 ? std::pair{1e-3, "k"}
                                                  : std::pair{1.0, ""};
   const std::string words = fmt::format("{} {}N, contact force on the bodies", number_text(factor * longest), prefix);
-  svg.text({page.right, y + 5}, words, "end");
   const double tip = page.right - text_width(words, picture_font_size) - 12;
+  svg.text({tip + 10, y + 5}, words);
   draw_arrow(svg, {tip - longest_force_arrow, y}, {tip, y}, 1.4, picture_force);
 }
 
@@ -140,9 +140,12 @@ std::string length_text(double metres) {
 
 std::string number_text(double value) {
   const double size = std::fabs(value);
-  if (size < 1e3 || size >= 1e6) return fmt::format("{:.3g}", value);
-  const double last_digit = size < 1e4 ? 10 : size < 1e5 ? 100 : 1000;
-  return fmt::format("{:.0f}", last_digit * std::round(value / last_digit));
+  std::string text = fmt::format("{:.3g}", size);
+  if (size >= 1e3 && size < 1e6) {
+    const double last_digit = size < 1e4 ? 10 : size < 1e5 ? 100 : 1000;
+    text = fmt::format("{:.0f}", last_digit * std::round(size / last_digit));
+  }
+  return value < 0 ? "−" + text : text;
 }
 
 void place_label(Svg& svg, PicturePage& page, Vec2 at, double clearance, const LabelSides& sides,

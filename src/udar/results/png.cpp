@@ -9,19 +9,6 @@
 namespace udar {
 namespace {
 
-void append_big_endian(std::string& out, std::size_t value) {
-  for (int shift = 24; shift >= 0; shift -= 8) out += static_cast<char>(value >> shift & 0xff);
-}
-
-void append_chunk(std::string& out, std::string_view kind, std::string_view data) {
-  append_big_endian(out, data.size());
-  const std::size_t begin = out.size();
-  out += kind;
-  out += data;
-  const auto* bytes = reinterpret_cast<const Bytef*>(out.data() + begin);
-  append_big_endian(out, ::crc32(0, bytes, static_cast<uInt>(out.size() - begin)));
-}
-
 std::string palette(std::span<const std::string_view> colours) {
   std::string bytes(3, '\0');
   for (const std::string_view colour : colours) {
@@ -45,6 +32,19 @@ std::string compressed(const std::string& bytes) {
 
 }  // namespace
 
+void append_big_endian(std::string& out, std::size_t value) {
+  for (int shift = 24; shift >= 0; shift -= 8) out += static_cast<char>(value >> shift & 0xff);
+}
+
+void append_png_chunk(std::string& out, std::string_view kind, std::string_view data) {
+  append_big_endian(out, data.size());
+  const std::size_t begin = out.size();
+  out += kind;
+  out += data;
+  const auto* bytes = reinterpret_cast<const Bytef*>(out.data() + begin);
+  append_big_endian(out, ::crc32(0, bytes, static_cast<uInt>(out.size() - begin)));
+}
+
 std::string to_png(const DotImage& image, std::span<const std::string_view> colours) {
   std::string head;
   append_big_endian(head, image.width);
@@ -56,12 +56,12 @@ std::string to_png(const DotImage& image, std::span<const std::string_view> colo
     rows += '\0';  // no prediction: numbers of colours have no slope
     rows.append(reinterpret_cast<const char*>(image.dots.data() + y * image.width), image.width);
   }
-  std::string out = "\x89PNG\r\n\x1a\n";
-  append_chunk(out, "IHDR", head);
-  append_chunk(out, "PLTE", palette(colours));
-  append_chunk(out, "tRNS", std::string_view("\0", 1));
-  append_chunk(out, "IDAT", compressed(rows));
-  append_chunk(out, "IEND", "");
+  std::string out(png_signature);
+  append_png_chunk(out, "IHDR", head);
+  append_png_chunk(out, "PLTE", palette(colours));
+  append_png_chunk(out, "tRNS", std::string_view("\0", 1));
+  append_png_chunk(out, "IDAT", compressed(rows));
+  append_png_chunk(out, "IEND", "");
   return out;
 }
 
