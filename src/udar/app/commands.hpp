@@ -16,6 +16,7 @@ namespace udar {
 struct Command {
   CLI::App* words = nullptr;      ///< what it takes, as the parser knows it
   std::function<ExitCode()> run;  ///< once the words are read: writes to the terminal, throws mistakes
+  const char* undone = "run";     ///< what was not done where it throws a UserError
 };
 
 /// Tells the parser about a command. Each stands in <name>_command.cpp; main.cpp lists them.

@@ -73,6 +73,9 @@ ExitCode refuse(const CLI::App& app, const CLI::ParseError& error) {
     message = "a case file is needed";
   } else if (message == "RUN is required") {
     message = "the folder of a run is needed";
+  } else if (message == "--output is required") {
+    message = "a file to make is needed";
+    cure = "write --output and its name";
   }
   fmt::print(stderr, "error: {}\n  = {}\n", message, cure);
   return ExitCode::usage;
@@ -101,17 +104,19 @@ ExitCode run_program(int count, char** words) {
   }
   const auto chosen =
       std::find_if(commands.begin(), commands.end(), [](const Command& c) { return c.words->parsed(); });
-  return chosen->run();
+  try {
+    return chosen->run();
+  } catch (const UserError& error) {
+    const auto count_of_errors = static_cast<long long>(error.diagnostics.size());
+    fmt::print(stderr, "{}{}; nothing was {}\n", error.what(), counted(count_of_errors, "error"), chosen->undone);
+    return error.code;
+  }
 }
 
 /// Runs the program and tells what it throws.
 ExitCode run_and_tell(int count, char** words) {
   try {
     return run_program(count, words);
-  } catch (const UserError& error) {
-    fmt::print(stderr, "{}{}; nothing was run\n", error.what(),
-               counted(static_cast<long long>(error.diagnostics.size()), "error"));
-    return error.code;
   } catch (const OutputError& error) {
     fmt::print(stderr, "error: {}\n", error.what());
     return ExitCode::output;

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -88,7 +89,7 @@ ExitCode make(const Arguments& arguments) {
                        .width = arguments.common.width};
   const auto count = static_cast<double>(request.frames.size());
   request.frames_per_second =
-      arguments.frames_per_second > 0 ? arguments.frames_per_second : std::clamp(count / 6, 5.0, 30.0);
+      arguments.frames_per_second > 0 ? arguments.frames_per_second : std::clamp(std::round(count / 6), 5.0, 30.0);
   request.at_once = static_cast<std::size_t>(std::max(1, static_cast<int>(available_threads())));
   request.output = movie_file(request.output);
   if (request.output != arguments.common.output) {
@@ -125,7 +126,7 @@ Command add_movie(CLI::App& app) {
       ->check(CLI::Range(1.0, 60.0).description(""));
   words->add_option("--from", arguments->from, "Leave out what is before: \"0.1 ms\"")->type_name("TIME");
   words->add_option("--to", arguments->to, "Leave out what is after")->type_name("TIME");
-  return {words, [arguments] { return make(*arguments); }};
+  return {words, [arguments] { return make(*arguments); }, "made"};
 }
 
 }  // namespace udar

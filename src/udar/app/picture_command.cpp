@@ -118,7 +118,7 @@ Command add_picture(CLI::App& app) {
   words->add_option("--columns", arguments->columns, "Of several small pictures, 1 to 20")
       ->type_name("N")
       ->check(CLI::Range(1, 20).description(""));
-  return {words, [arguments] { return draw(*arguments); }};
+  return {words, [arguments] { return draw(*arguments); }, "made"};
 }
 
 }  // namespace udar

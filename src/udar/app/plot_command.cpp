@@ -72,7 +72,7 @@ Command add_plot(CLI::App& app) {
   words->add_option("--to", arguments->to, "Where it ends")->type_name("TIME");
   words->add_option("--title", arguments->title, "Instead of the name of the case")->type_name("TEXT");
   add_width_option(*words, arguments->width);
-  return {words, [arguments] { return draw(*arguments); }};
+  return {words, [arguments] { return draw(*arguments); }, "made"};
 }
 
 }  // namespace udar

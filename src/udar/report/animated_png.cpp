@@ -66,7 +66,11 @@ void AnimatedPng::add(std::string_view png) {
   if (first) {
     head_ = head;
     out = png_signature;
-    append_png_chunk(out, "IHDR", head);
+    for (const Chunk& chunk : chunks) {
+      if (chunk.kind == "IHDR" || chunk.kind == "PLTE" || chunk.kind == "tRNS") {
+        append_png_chunk(out, chunk.kind, chunk.data);
+      }
+    }
     std::string control;
     append_big_endian(control, frames_);
     append_big_endian(control, 0);  // for ever

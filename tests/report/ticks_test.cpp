@@ -1,0 +1,75 @@
+#include "udar/report/ticks.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <random>
+
+#include "udar/report/human_unit.hpp"
+
+using namespace udar;
+
+TEST_CASE("ticks are multiples of 1, 2 or 5 times a power of ten, cover the range and are about as many as wanted") {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> digits(-1, 1);
+  std::uniform_int_distribution<int> powers(-9, 9);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const double low = digits(random) * std::pow(10, powers(random));
+    const double high = low + std::fabs(digits(random)) * std::pow(10, powers(random)) + 1e-6 * std::fabs(low);
+    const int wanted = 3 + trial % 8;
+    const Ticks ticks = ticks_over(low, high, wanted);
+    const double power = std::pow(10, std::floor(std::log10(ticks.step * 1.0001)));
+    const double digit = ticks.step / power;
+    INFO("from ", low, " to ", high, " step ", ticks.step);
+    CHECK((std::fabs(digit - 1) < 1e-6 || std::fabs(digit - 2) < 1e-6 || std::fabs(digit - 5) < 1e-6));
+    const double hair = 1e-6 * ticks.step;
+    CHECK(ticks.values.front() <= low + hair);
+    CHECK(ticks.values.back() >= high - hair);
+    // No more than one step beyond each end, so at most two intervals more than wanted.
+    CHECK(ticks.values.front() > low - ticks.step - hair);
+    CHECK(ticks.values.back() < high + ticks.step + hair);
+    CHECK(static_cast<int>(ticks.values.size()) <= wanted + 3);
+    for (const double v : ticks_within(low, high, wanted).values) {
+      CHECK(v >= low - hair);
+      CHECK(v <= high + hair);
+    }
+  }
+}
+
+TEST_CASE("the words at ticks have the digits that the step needs") {
+  const Ticks tenths = ticks_over(-0.3, 0.4, 7);
+  CHECK(tenths.step == doctest::Approx(0.1));
+  CHECK(tenths.text(tenths.values.front()) == "−0.3");
+  CHECK(tenths.text(1e-17) == "0");
+  CHECK(tenths.text(0.4) == "0.4");
+  const Ticks hundreds = ticks_over(0, 900, 5);
+  CHECK(hundreds.text(800) == "800");
+}
+
+TEST_CASE("nothing to cover still makes an axis") {
+  CHECK(ticks_over(0, 0, 5).values.size() >= 2);
+  CHECK(ticks_over(3, 3, 5).values.size() >= 2);
+}
+
+TEST_CASE("units for people") {
+  CHECK(human_unit("m", 0.0402).name == "mm");
+  CHECK(human_unit("m", 0.0402).size == doctest::Approx(1e-3));
+  CHECK(human_unit("s", 2e-3).name == "ms");
+  CHECK(human_unit("s", 999.99e-6).name == "ms");  // that is 1 ms
+  CHECK(human_unit("s", 40.4e-6).name == "µs");
+  CHECK(human_unit("s", 300).name == "s");  // nobody counts in ks
+  CHECK(human_unit("Pa", 235e6).name == "MPa");
+  CHECK(human_unit("Pa", 2e9).name == "MPa");
+  CHECK(human_unit("N", 1.3e6).name == "MN");
+  CHECK(human_unit("J", 9902).name == "kJ");
+  CHECK(human_unit("m/s", 80).name == "m/s");
+  CHECK(human_unit("m/s^2", 9.81).name == "m/s²");
+  CHECK(human_unit("m/s^2", 3e7).name == "10⁶ m/s²");
+  CHECK(human_unit("m/s^2", 3e7).size == doctest::Approx(1e6));
+  CHECK(human_unit("", 0.31).name.empty());
+  CHECK(human_unit("Pa", 0).size == 1);
+  CHECK(human_text(5.001e-4, "s", 4) == "500.1 µs");
+  CHECK(human_text(1.336e6, "N") == "1.34 MN");
+  CHECK(human_text(-0.0402, "m") == "-40.2 mm");
+  CHECK(human_text(0, "N") == "0 N");
+}
