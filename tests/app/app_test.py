@@ -80,8 +80,8 @@ class CommandLine(Program):
         out, _ = self.udar("--help")
         self.assertIn("udar run cases/short-beam/short-beam.toml", out)
         self.assertIn("Exit codes", out)
-        for command, word in {"run": "--output", "check": "--set", "report": "--limit",
-                              "keys": "udar keys friction"}.items():
+        for command, word in {"run": "--output", "check": "--set", "report": "--limit", "keys": "udar keys friction",
+                              "plot": "--from", "picture": "--times", "movie": "--fps"}.items():
             self.assertIn(command, out)
             text, _ = self.udar(command, "--help")
             self.assertIn("Example", text)

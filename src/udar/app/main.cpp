@@ -25,6 +25,8 @@ constexpr const char* footer = R"(Examples:
   udar run cases/short-beam/short-beam.toml --set bodies.beam.mesh.element_size="1 cm" --output runs/coarse
   udar report runs/short-beam --limit "5 MB"
   udar keys friction
+  udar picture runs/short-beam --time "0.5 ms" --field sigma1 --output stress.png
+  udar plot runs/short-beam corner.displacement_y --output corner.svg
 
 Exit codes:
   0 done                 3 wrong case                  6 results could not be written

@@ -116,7 +116,7 @@ ExitCode make(const Arguments& arguments) {
 
 Command add_movie(CLI::App& app) {
   CLI::App* words = app.add_subcommand("movie", "Draw all frames of a run as a movie");
-  words->footer(movie_footer);
+  words->footer(fields_text() + "\n\n" + movie_footer);
   const auto arguments = std::make_shared<Arguments>();
   arguments->common.width = 1280;
   words->add_option("RUN", arguments->run, "Folder of a run")->required()->type_name("");

@@ -108,7 +108,7 @@ ExitCode draw(const Arguments& arguments) {
 
 Command add_picture(CLI::App& app) {
   CLI::App* words = app.add_subcommand("picture", "Draw a run at one time or several: deformed bodies with a field");
-  words->footer(picture_footer);
+  words->footer(fields_text() + "\n\n" + picture_footer);
   const auto arguments = std::make_shared<Arguments>();
   words->add_option("RUN", arguments->runs, "Folder of a run, or several")->required()->type_name("");
   words->add_option("--time,--times", arguments->times, "When, as often as needed, or with commas; else the last frame")

@@ -116,12 +116,23 @@ double time_of_option(std::string_view option, std::string_view text) {
   return si_of_option(option, text, dimension::time);
 }
 
-void add_picture_options(CLI::App& command, PictureArguments& arguments) {
-  std::string fields;
+std::string fields_text() {
+  constexpr std::size_t longest_line = 100;
+  std::string text = "Fields:";
+  std::size_t begin = 0;
   for (const FieldKind& kind : field_kinds()) {
-    fields += fmt::format("{}{}", fields.empty() ? "" : ", ", kind.short_name.empty() ? kind.name : kind.short_name);
+    const std::string_view name = kind.short_name.empty() ? kind.name : kind.short_name;
+    if (text.size() - begin + name.size() + 2 > longest_line) {
+      begin = text.size() + 1;
+      text += "\n ";
+    }
+    text += fmt::format(" {}{}", name, &kind == &field_kinds().back() ? "" : ",");
   }
-  command.add_option("--field", arguments.field, "What colours show: " + fields)->type_name("NAME");
+  return text;
+}
+
+void add_picture_options(CLI::App& command, PictureArguments& arguments) {
+  command.add_option("--field", arguments.field, "What colours show; plastic by itself")->type_name("NAME");
   command.add_option("--output", arguments.output, "File to make; its ending says what")->type_name("FILE")->required();
   command.add_option("--range", arguments.range, "Values of the first and the last colour: \"0..400 MPa\"; or auto")
       ->type_name("A..B");
@@ -130,7 +141,8 @@ void add_picture_options(CLI::App& command, PictureArguments& arguments) {
       .add_option("--view", arguments.view, "What is shown: \"-25 cm, -5 cm, 25 cm, 15 cm\", lower left to upper right")
       ->type_name("X,Y,X,Y");
   command.add_option("--follow", arguments.follow, "Keep this body in the middle")->type_name("BODY");
-  command.add_flag("--mesh,!--no-mesh", arguments.mesh, "Draw the mesh, where it is not too fine, or not");
+  command.add_flag("--mesh", "Draw the mesh where it is not too fine, as it is done anyway")->group("");
+  command.add_flag("--no-mesh", arguments.no_mesh, "Leave the mesh out");
   command.add_flag("--smooth", arguments.smooth, "Even colours between the means at nodes");
   add_width_option(command, arguments.width);
 }
@@ -149,7 +161,7 @@ FrameView frame_view(const PictureArguments& arguments, const std::filesystem::p
   }
   if (!arguments.view.empty()) view.view = view_of_option(arguments.view);
   if (!arguments.follow.empty()) view.follow = body_number(arguments.follow, run);
-  view.mesh = arguments.mesh;
+  view.mesh = !arguments.no_mesh;
   view.smooth = arguments.smooth;
   return view;
 }

@@ -16,11 +16,14 @@ struct PictureArguments {
   std::string unit;
   std::string view;
   std::string follow;
-  bool mesh = true;
+  bool no_mesh = false;
   bool smooth = false;
   int width = 1600;
   std::string output;
 };
+
+/// The names of all fields, for the help.
+std::string fields_text();
 
 void add_picture_options(CLI::App& command, PictureArguments& arguments);
 
