@@ -141,7 +141,7 @@ void add_picture_options(CLI::App& command, PictureArguments& arguments) {
       .add_option("--view", arguments.view, "What is shown: \"-25 cm, -5 cm, 25 cm, 15 cm\", lower left to upper right")
       ->type_name("X,Y,X,Y");
   command.add_option("--follow", arguments.follow, "Keep this body in the middle")->type_name("BODY");
-  command.add_flag("--mesh", "Draw the mesh where it is not too fine, as it is done anyway")->group("");
+  command.add_flag("--mesh", arguments.mesh, "Draw the mesh, where it is not too fine")->group("");
   command.add_flag("--no-mesh", arguments.no_mesh, "Leave the mesh out");
   command.add_flag("--smooth", arguments.smooth, "Even colours between the means at nodes");
   add_width_option(command, arguments.width);

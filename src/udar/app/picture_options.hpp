@@ -16,6 +16,7 @@ struct PictureArguments {
   std::string unit;
   std::string view;
   std::string follow;
+  bool mesh = false;  ///< is drawn anyway
   bool no_mesh = false;
   bool smooth = false;
   int width = 1600;

@@ -16,9 +16,9 @@ constexpr const char* plot_footer = R"(Examples:
   udar plot runs/short-beam corner.displacement_y stop.force_y --to "0.5 ms" --output corner.png
   udar plot runs/coarse runs/medium corner.displacement_y --output meshes.svg
 
-A history is a file of histories/, a column what its first line names: corner.displacement_y; corner.displacement
-is x and y, corner all that it has. Curves in one unit share a panel. PNG and PDF need the program rsvg-convert
-(Debian: librsvg2-bin).)";
+A history is a file of histories/, a column what its first line names: corner.displacement_y.
+corner.displacement is x and y, corner all that it has. Curves in one unit share a panel.
+PNG and PDF need the program rsvg-convert (Debian: librsvg2-bin).)";
 
 struct Arguments {
   std::vector<std::string> words;
