@@ -107,11 +107,10 @@ Made make_report(const fs::path& folder) {
     flush_terminal();
   }
   Made made;
-  const int stopped_by = caught_signal;  // a run that was interrupted has a report too, unless another signal comes
-  caught_signal = 0;
+  const OnlyNewSignals only_new;  // a run that was interrupted has a report too
   try {
     ReportOptions options;
-    options.interrupted = [] { return caught_signal != 0; };
+    options.interrupted = is_interrupted;
     const ReportInfo info = write_report(folder, options);
     made.interrupted = info.path.empty();
     made.report = !made.interrupted;
@@ -126,7 +125,6 @@ Made make_report(const fs::path& folder) {
   } catch (const std::bad_alloc&) {
     made.notes.emplace_back("no report.html: not enough memory");
   }
-  if (caught_signal == 0) caught_signal = stopped_by;
   if (terminal) say("\r\x1b[K");
   return made;
 }
@@ -205,7 +203,7 @@ ExitCode run_case(const RunArguments& arguments) {
   print_result(summary, *options.folder, made);
   const ExitCode code = exit_code_of(summary);
   if (code != ExitCode::done || !made.interrupted) return code;
-  return caught_signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted;
+  return code_of_signal();
 }
 
 }  // namespace

@@ -30,6 +30,12 @@ void catch_signals() {
 
 bool is_interrupted() { return caught_signal != 0; }
 
+OnlyNewSignals::OnlyNewSignals() : before_(caught_signal) { caught_signal = 0; }
+
+OnlyNewSignals::~OnlyNewSignals() {
+  if (caught_signal == 0) caught_signal = before_;
+}
+
 ExitCode code_of_signal() { return caught_signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted; }
 
 }  // namespace udar

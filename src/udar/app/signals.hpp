@@ -12,4 +12,17 @@ bool is_interrupted();
 /// The exit code for it.
 ExitCode code_of_signal();
 
+/// While it lives only new signals count, so that what is still made of an interrupted run does not stop at the old
+/// one; at its end the old one counts again where none came.
+class OnlyNewSignals {
+ public:
+  OnlyNewSignals();
+  OnlyNewSignals(const OnlyNewSignals&) = delete;
+  OnlyNewSignals& operator=(const OnlyNewSignals&) = delete;
+  ~OnlyNewSignals();
+
+ private:
+  int before_;
+};
+
 }  // namespace udar
