@@ -60,7 +60,7 @@ std::vector<Shown> choose(const std::vector<RunFrames>& runs, const std::vector<
 
 /// What tells a pane from the others: its run, its time, or both.
 std::string pane_title(const Arguments& arguments, const Shown& shown, bool many_times) {
-  const std::string time = "t = " + human_text(shown.run->times()[shown.frame], "s", 4);
+  std::string time = "t = " + human_text(shown.run->times()[shown.frame], "s", 4);
   if (arguments.runs.size() == 1) return time;
   return many_times ? shown.run->run_name() + ", " + time : shown.run->run_name();
 }

@@ -45,8 +45,8 @@ std::vector<double> node_values(const Frame& frame, const FieldKind& kind);
 /// For each triangle 1 where it flows now, 2 where it has flowed before, else 0.
 std::vector<std::uint8_t> flow_flags(const Frame& frame);
 
-/// A vector field at the nodes, SI.
-std::vector<Vec2> node_vectors(const Frame& frame, std::string_view array);
+/// The vectors at the nodes in the array of this name, SI. Throws OutputError where the frame lacks it.
+std::vector<Vec2> node_vectors(const Frame& frame, std::string_view name);
 
 /// Number of the body of each triangle.
 std::vector<std::int32_t> bodies_of_triangles(const Frame& frame);

@@ -104,7 +104,7 @@ fs::path movie_file(const fs::path& output) {
   require(converter(DrawingKind::png, 0));
   const Encoding* const encoding = encoding_of(output);
   if (encoding == nullptr || is_installed(encoder(*encoding, 1, output))) return output;
-  const fs::path instead = fs::path(output).replace_extension(".png");
+  fs::path instead = fs::path(output).replace_extension(".png");
   std::error_code error;
   if (fs::exists(instead, error)) {
     throw OutputError(

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <spawn.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -15,8 +16,6 @@
 #include <deque>
 
 #include "udar/base/error.hpp"
-
-extern char** environ;
 
 namespace udar {
 namespace {
@@ -38,6 +37,14 @@ struct Pipe {
 Pipe make_pipe(const std::string& name) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) cannot_start(name, errno);
+  return {Descriptor(ends[0]), Descriptor(ends[1])};
+}
+
+/// A way to the program: a socket, since writing to a pipe that nobody reads ends the whole process by a signal unless
+/// that is ignored everywhere.
+Pipe make_input(const std::string& name) {
+  std::array<int, 2> ends{};
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0) cannot_start(name, errno);
   return {Descriptor(ends[0]), Descriptor(ends[1])};
 }
 
@@ -96,7 +103,7 @@ void require(const Program& program) {
 }
 
 Child::Child(const Program& program) : name_(program.words[0]) {
-  Pipe in = make_pipe(name_);
+  Pipe in = make_input(name_);
   Pipe out = make_pipe(name_);
   Pipe err = make_pipe(name_);
   int error = 0;
@@ -146,7 +153,7 @@ void Child::add_to(std::vector<pollfd>& waits) const {
 
 void Child::feed() {
   while (in_.is_open() && !is_fed()) {
-    const ssize_t count = ::write(in_.number(), input_.data() + given_, input_.size() - given_);
+    const ssize_t count = ::send(in_.number(), input_.data() + given_, input_.size() - given_, MSG_NOSIGNAL);
     if (count < 0 && errno == EINTR) continue;
     if (count < 0 && errno == EAGAIN) return;
     if (count < 0) {  // it has ended, and will tell why

@@ -67,7 +67,7 @@ std::string folder_name(const fs::path& folder) {
 std::string case_name_of(const fs::path& folder) {
   std::error_code error;
   if (fs::exists(folder / RunFolder::summary, error)) {
-    const std::string name = read_summary(folder / RunFolder::summary).case_name;
+    std::string name = read_summary(folder / RunFolder::summary).case_name;
     if (!name.empty()) return name;
   }
   return folder_name(folder);

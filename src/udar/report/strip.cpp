@@ -51,8 +51,8 @@ std::string to_svg(const PictureStrip& strip) {
     page.clip = clip;
     const double left = margin + static_cast<double>(k % columns) * (pane_width + between);
     row_height = label_height + page.size.y + between;
-    page.corner = {left + 0.5 * (pane_width - page.size.x),
-                   top + static_cast<double>(k / columns) * row_height + label_height};
+    const std::size_t row = k / columns;
+    page.corner = {left + 0.5 * (pane_width - page.size.x), top + static_cast<double>(row) * row_height + label_height};
     page.is_fine = is_fine_mesh(page, picture);
     svg.text({page.corner.x, page.corner.y - 7}, picture.title, "start", R"(font-weight="bold")");
     svg.add("{}", clip_of(page));
