@@ -207,7 +207,8 @@ class Check(Program):
     def test_is_right_about_memory(self):
         if "libasan" in subprocess.run(["ldd", PROGRAM], capture_output=True, text=True, check=True).stdout:
             self.skipTest("the sanitizer keeps memory of its own")
-        words = ["block.toml", "--set", "bodies.block.mesh.element_size=0.0125 cm"]  # 102 400 elements
+        # 102 400 elements, and more frames than may wait for the disk.
+        words = ["block.toml", "--set", "bodies.block.mesh.element_size=0.0125 cm", "--set", "output.fields_every=50 ns"]
         out, _ = self.udar("check", *words)
         told = float(re.search(r"memory     about (.*) MB", out)[1])
         run = subprocess.Popen([PROGRAM, "run", *words, "--set", "run.end_time=0.5 us", "--output", "out"],

@@ -28,6 +28,7 @@ struct SmallRun {
       udar::write_vtu(run / obstacles, stop);
       index.add({{time, 0, bodies}, {time, 1, obstacles}});
     }
+    index.write();
   }
 
   static std::vector<double> stresses(double time) { return {1e6, -2e6, 3e6, 1e9 * time}; }

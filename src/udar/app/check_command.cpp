@@ -11,6 +11,7 @@
 
 #include "udar/app/commands.hpp"
 #include "udar/app/terminal.hpp"
+#include "udar/output/frame_writer.hpp"
 #include "udar/output/run_pictures.hpp"
 #include "udar/output/summarise.hpp"
 #include "udar/report/drawing.hpp"
@@ -166,10 +167,8 @@ void print_time_step(const Model& model, const Clock& clock) {
   }
 }
 
-/// Seconds of one step, from a few done with what a run keeps.
+/// Seconds of one step, from a few done.
 double step_seconds(const Model& model, State& state, Workspace& work) {
-  LastGood last_good(model);
-  last_good.keep(state);
   const auto begin = steady_clock::now();
   const auto spent = [&] { return std::chrono::duration<double>(steady_clock::now() - begin).count(); };
   int steps = 0;
@@ -184,12 +183,15 @@ double step_seconds(const Model& model, State& state, Workspace& work) {
   return steps > 0 ? spent() / steps : 0;
 }
 
-/// Does a few steps to find out.
+/// Does a few steps to find out, with what a run keeps beside them.
 void print_cost(const Model& model, State& state, Workspace& work) {
   const double steps = std::ceil(model.run.end_time / state.clock.next_step * (1 - 1e-9));
   row("steps", "", fmt::format("{:.0f}{}", steps, model.run.time_step ? "" : ", more as elements deform"));
+  LastGood last_good(model);
+  last_good.keep(state);
   const double each = step_seconds(model, state, work);
-  row("memory", "", "about " + in_units(memory_so_far(), "B"));
+  const auto of_frames = static_cast<double>(memory_of_frames(model, state));
+  row("memory", "", "about " + in_units(memory_so_far() + of_frames, "B"));
   const std::string threads = counted(work.pool.threads(), "thread");
   row("time", "", fmt::format("about {:.2g} s with {}, and what writing the fields takes", steps * each, threads));
 }

@@ -278,6 +278,24 @@ constexpr std::chrono::milliseconds between_renewals{250};
 
 }  // namespace
 
+namespace {
+
+/// Of frames that take so many bytes each as many wait for the disk.
+std::size_t frames_that_wait(std::size_t bytes) {
+  constexpr std::size_t most_bytes = std::size_t{64} << 20;
+  return std::clamp<std::size_t>(most_bytes / std::max<std::size_t>(bytes, 1), 1, most_frames_waiting);
+}
+
+}  // namespace
+
+std::size_t memory_of_frames(const Model& model, const State& state) {
+  if (!(model.output.fields_every > 0) && model.output.fields_at.empty()) return 0;
+  VtuPacker packer;
+  PackedVtu frame;
+  packer.pack(body_frame(model, state), frame);
+  return (frames_that_wait(frame.memory()) - 1) * frame.memory();
+}
+
 FrameWriter::FrameWriter(const Model& model, const RunFolder& folder, Pool& pool)
     : model_(model),
       folder_(folder),
@@ -314,8 +332,7 @@ void FrameWriter::take(const State& state) {
   frame.has_obstacles = !obstacles.points.empty();
   if (frame.has_obstacles) obstacle_packer_.pack(obstacles, frame.obstacles);
   background_.add([this, &frame] { put_on_disk(frame); });
-  constexpr std::size_t most_bytes = std::size_t{64} << 20;
-  if (taken_++ == 0) room_ = std::clamp<std::size_t>(most_bytes / frame.bodies.memory(), 1, most_waiting);
+  if (taken_++ == 0) room_ = frames_that_wait(frame.bodies.memory());
   last_step_ = state.clock.step;
 }
 

@@ -32,6 +32,12 @@ std::vector<ObstacleOutline> named_obstacle_outlines(const Model& model, const S
 /// The same without the numbers, m.
 std::vector<std::vector<Vec2>> obstacle_outlines(const Model& model, const State& state);
 
+constexpr std::size_t most_frames_waiting = 4;
+
+/// Packs a frame, as a run does first, and tells how many bytes those take that may wait for the disk after it; 0 where
+/// the model wants no frames.
+std::size_t memory_of_frames(const Model& model, const State& state);
+
 /// Writes frames into the run folder: at every multiple of the interval, at the times asked for, each at the first t_n
 /// that is not before; steps are never changed for it.
 ///
@@ -59,7 +65,6 @@ class FrameWriter {
     Descriptor file;
     std::filesystem::path path;
   };
-  static constexpr std::size_t most_waiting = 4;
 
   void take(const State& state);
   void put_on_disk(const Waiting& frame);
@@ -72,7 +77,7 @@ class FrameWriter {
   std::size_t times_ = 0;  ///< times asked for that are done
   VtuPacker body_packer_;
   VtuPacker obstacle_packer_;
-  std::array<Waiting, most_waiting> waiting_;
+  std::array<Waiting, most_frames_waiting> waiting_;
   std::size_t room_ = 1;   ///< how many of them are used
   std::size_t taken_ = 0;  ///< frames
   std::uint64_t last_step_ = 0;

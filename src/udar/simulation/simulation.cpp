@@ -58,6 +58,7 @@ class Recorders {
   void close(const State& state, Stop& stop) {
     stop.save([&] { histories_.close(state); });
     if (frames_) stop.save([&] { frames_->close(state); });
+    frames_.reset();  // what it held is needed no more
   }
   void summarise(Summary& summary) const {
     summary.histories = histories_.summary();
