@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 #include <sys/syscall.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -36,6 +37,13 @@ long call_or_fail(long number, long a, long b = 0, long c = 0) {
 }  // namespace
 
 extern "C" {
+ssize_t writev(int file, const struct iovec* parts, int count) {
+  if (fault.short_writes && count > 0) {
+    const size_t most = parts[0].iov_len > 3 ? 3 : parts[0].iov_len;
+    return call_or_fail(SYS_write, file, reinterpret_cast<long>(parts[0].iov_base), static_cast<long>(most));
+  }
+  return call_or_fail(SYS_writev, file, reinterpret_cast<long>(parts), count);
+}
 ssize_t write(int file, const void* bytes, size_t size) {
   const size_t asked = fault.short_writes && size > 3 ? 3 : size;
   return call_or_fail(SYS_write, file, reinterpret_cast<long>(bytes), static_cast<long>(asked));
@@ -102,25 +110,39 @@ TEST_CASE("a file made in pieces is there when it is whole, or never") {
   CHECK_FALSE(std::filesystem::exists(folder / "a.txt.tmp"));
 }
 
-TEST_CASE("a file can be in its place before it is on the disk, and is told when it does not get there") {
-  const Scratch folder;
-  const std::filesystem::path path = folder / "a.txt";
-  FileReplacement file(path);
-  file.write("content");
-  const Descriptor descriptor = file.commit_unsynced();
-  CHECK(read_file(path, 100) == "content");
-  fault = {.calls_left = 0, .error = EIO};
-  const std::string text = message_of<OutputError>([&] { sync_file(descriptor, path); });
+/// What pieces written at once, and put in their place without waiting for the disk, throw when call `k` fails.
+std::string failing_pieces(const std::filesystem::path& path, int k, int error) {
+  constexpr std::array<std::string_view, 4> pieces{"pieces ", "", "of a ", "frame"};
+  fault = {.calls_left = k, .error = error};
+  const std::string text = message_of<OutputError>([&] {
+    FileReplacement file(path);
+    file.write(pieces);
+    file.commit_unsynced();
+  });
   fault = {};
-  CHECK(contains(text, "a.txt"));
-  CHECK(contains(text, "the disk reports a fault"));
-  CHECK_NOTHROW(sync_file(descriptor, path));
+  return text;
+}
 
-  FileReplacement other(folder / "b.txt");
-  fault = {.calls_left = 0, .error = ENOSPC};
-  CHECK(contains(message_of<OutputError>([&] { (void)other.commit_unsynced(); }), "No space left"));
+TEST_CASE("pieces are written at once, all or none of them") {
+  const Scratch folder;
+  for (int k = 0; k < 3; ++k) {  // write, close, rename
+    CHECK(contains(failing_pieces(folder / "a.txt", k, ENOSPC), "No space left"));
+    CHECK_FALSE(std::filesystem::exists(folder / "a.txt"));
+    CHECK_FALSE(std::filesystem::exists(folder / "a.txt.tmp"));
+  }
+  CHECK(failing_pieces(folder / "a.txt", 3, EIO) == "");  // nothing is left that could fail
+  CHECK(read_file(folder / "a.txt", 100) == "pieces of a frame");
+  CHECK(failing_pieces(folder / "b.txt", 0, EINTR) == "");
+  CHECK(read_file(folder / "b.txt", 100) == "pieces of a frame");
+  fault = {.short_writes = true};
+  {
+    std::vector<std::string_view> many(700, "0123456789");
+    FileReplacement file(folder / "d.txt");
+    file.write(many);
+    file.commit_unsynced();
+  }
   fault = {};
-  CHECK_FALSE(std::filesystem::exists(folder / "b.txt"));
+  CHECK(read_file(folder / "d.txt", 10000).size() == 7000);
 }
 
 TEST_CASE("an interrupted call and short writes lose nothing") {

@@ -273,12 +273,8 @@ VtuGrid obstacle_grid(const Model& model, const State& state) {
 
 namespace {
 
-/// How long a frame may be on the disk before the index names it, where others follow.
+/// How long a frame may be there before the index names it, where others follow.
 constexpr std::chrono::milliseconds between_renewals{250};
-
-}  // namespace
-
-namespace {
 
 /// Of frames that take so many bytes each as many wait for the disk.
 std::size_t frames_that_wait(std::size_t bytes) {
@@ -343,25 +339,18 @@ void FrameWriter::put_on_disk(const Waiting& frame) {
   }
   index_.add(entries);
   ++frames_;
-  constexpr std::size_t most_unsynced = 64;  // files that are held open
-  const auto age = std::chrono::steady_clock::now() - renewed_;
-  if (age >= between_renewals || unsynced_.size() >= most_unsynced) renew_index();
+  if (std::chrono::steady_clock::now() - renewed_ >= between_renewals) renew_index();
 }
 
 PvdEntry FrameWriter::put_file(double time, int part, std::string file, const PackedVtu& frame) {
   FileReplacement replacement(folder_ / file);
   write_vtu(replacement, frame);
-  unsynced_.push_back({replacement.commit_unsynced(), folder_ / file});
-  begin_sync(unsynced_.back().file);
+  replacement.commit_unsynced();
   return {time, part, std::move(file)};
 }
 
-/// One wait for the disk serves all files since the last time.
 void FrameWriter::renew_index() {
   renewed_ = std::chrono::steady_clock::now();
-  if (unsynced_.empty()) return;
-  for (const Unsynced& file : std::exchange(unsynced_, {})) sync_file(file.file, file.path);
-  sync_folder(folder_ / RunFolder::fields);
   index_.write();
 }
 

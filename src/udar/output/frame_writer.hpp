@@ -42,8 +42,8 @@ std::size_t memory_of_frames(const Model& model, const State& state);
 /// that is not before; steps are never changed for it.
 ///
 /// The threads of the solver pack a frame together, between two steps; a thread in the background hands it to the disk
-/// while the solver goes on. A frame is whole and on the disk before the index names it; the index is renewed some
-/// times a second. What the disk refuses is told by a later call.
+/// while the solver goes on. A frame is whole before the index names it; the index is renewed some times a second. What
+/// the disk refuses is told by a later call.
 class FrameWriter {
  public:
   FrameWriter(const Model& model, const RunFolder& folder, Pool& pool);
@@ -61,11 +61,6 @@ class FrameWriter {
     PackedVtu obstacles;
     bool has_obstacles = false;
   };
-  struct Unsynced {
-    Descriptor file;
-    std::filesystem::path path;
-  };
-
   void take(const State& state);
   void put_on_disk(const Waiting& frame);
   PvdEntry put_file(double time, int part, std::string file, const PackedVtu& frame);
@@ -85,7 +80,6 @@ class FrameWriter {
   // Of the background thread.
   PvdIndex index_;
   int frames_ = 0;
-  std::vector<Unsynced> unsynced_;  ///< files since the index was renewed
   std::chrono::steady_clock::time_point renewed_ = std::chrono::steady_clock::now();
   Background background_;  ///< the last member: it ends first
 };

@@ -3,9 +3,11 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <sys/stat.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <system_error>
 
@@ -107,34 +109,41 @@ FileReplacement::~FileReplacement() {
 
 void FileReplacement::write(std::string_view bytes) { write_all(file_.number(), bytes, temporary_); }
 
-Descriptor FileReplacement::commit_unsynced() {
+void FileReplacement::write(std::span<const std::string_view> pieces) {
+  constexpr std::size_t most = 256;  // the system takes 1024 at once
+  std::array<iovec, most> parts;
+  while (!pieces.empty()) {
+    const std::size_t count = std::min(most, pieces.size());
+    for (std::size_t k = 0; k < count; ++k) {
+      parts[k] = {const_cast<char*>(pieces[k].data()), pieces[k].size()};  // which writev only reads
+    }
+    const ssize_t written = retry([&] { return ::writev(file_.number(), parts.data(), static_cast<int>(count)); });
+    if (written < 0) fail("write", temporary_, errno);
+    // A part of it only where the disk is full or a signal came: the rest, piece by piece, tells which.
+    auto done = static_cast<std::size_t>(written);
+    for (const std::string_view piece : pieces.first(count)) {
+      const std::size_t here = std::min(done, piece.size());
+      done -= here;
+      if (here < piece.size()) write(piece.substr(here));
+    }
+    pieces = pieces.subspan(count);
+  }
+}
+
+void FileReplacement::commit_unsynced() {
+  close_checked(file_, temporary_);
   if (::rename(temporary_.c_str(), path_.c_str()) < 0) fail("rename a file to", path_, errno);
   temporary_.clear();
-  return std::move(file_);
 }
 
 void FileReplacement::commit() {
   sync(file_.number(), temporary_);
-  close_checked(file_, temporary_);
-  if (::rename(temporary_.c_str(), path_.c_str()) < 0) fail("rename a file to", path_, errno);
-  temporary_.clear();
-  sync_folder(path_.has_parent_path() ? path_.parent_path() : fs::path("."));
+  commit_unsynced();
+  const fs::path folder = path_.has_parent_path() ? path_.parent_path() : fs::path(".");
+  const Descriptor names(retry([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); }));
+  if (!names.is_open()) fail("open folder", folder, errno);
+  sync(names.number(), folder);
 }
-
-void sync_folder(const fs::path& folder) {
-  const Descriptor file(retry([&] { return ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC); }));
-  if (!file.is_open()) fail("open folder", folder, errno);
-  sync(file.number(), folder);
-}
-
-void begin_sync([[maybe_unused]] const Descriptor& file) {
-#if defined(SYNC_FILE_RANGE_WRITE)
-  // What fails here fails again where it is waited for.
-  (void)::sync_file_range(file.number(), 0, 0, SYNC_FILE_RANGE_WRITE);
-#endif
-}
-
-void sync_file(const Descriptor& file, const fs::path& path) { sync(file.number(), path); }
 
 void write_file(const fs::path& path, std::string_view bytes) {
   FileReplacement file(path);

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -50,13 +51,6 @@ class PartReader {
   std::size_t size_ = 0;
 };
 
-/// Asks the system to begin to write a file to the disk: where several are waited for afterwards, the disk puts all of
-/// them into its journal at once. Promises nothing.
-void begin_sync(const Descriptor& file);
-/// Waits until a file, or the names in a folder, are on the disk. Throws OutputError; `path` is for its message.
-void sync_file(const Descriptor& file, const std::filesystem::path& path);
-void sync_folder(const std::filesystem::path& folder);
-
 /// Makes a file piece by piece, all or nothing as `write_file` does. Every call throws OutputError when it fails.
 class FileReplacement {
  public:
@@ -68,11 +62,13 @@ class FileReplacement {
   ~FileReplacement();
 
   void write(std::string_view bytes);
+  /// Writes one piece after another.
+  void write(std::span<const std::string_view> pieces);
   /// Waits for the disk and puts the file in its place.
   void commit();
-  /// Puts the file in its place before it is on the disk: only a power cut or a crash of the system can damage it until
-  /// `sync_file` has been called with what is returned, and `sync_folder`.
-  [[nodiscard]] Descriptor commit_unsynced();
+  /// Puts the file in its place without waiting for the disk: whoever reads it, also after the program was killed,
+  /// finds it whole; a power cut within the next half a minute may damage it.
+  void commit_unsynced();
   /// Where it lies until then: another program may write there.
   [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
 

@@ -29,7 +29,12 @@ PvdEntry parse_entry(const XmlTag& tag) {
 
 }  // namespace
 
-void PvdIndex::write() const { write_file(path_, to_pvd(entries_)); }
+void PvdIndex::write() const {
+  if (entries_.empty()) return;
+  FileReplacement file(path_);
+  file.write(to_pvd(entries_));
+  file.commit_unsynced();
+}
 
 std::string to_pvd(const std::vector<PvdEntry>& entries) {
   std::string out =

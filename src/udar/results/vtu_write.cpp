@@ -220,7 +220,9 @@ std::string to_vtu(const VtuGrid& grid) {
 }
 
 void write_vtu(FileReplacement& file, const PackedVtu& frame) {
-  frame.for_each_piece([&](std::string_view piece) { file.write(piece); });
+  std::vector<std::string_view> pieces;
+  frame.for_each_piece([&](std::string_view piece) { pieces.push_back(piece); });
+  file.write(pieces);
 }
 
 void write_vtu(const std::filesystem::path& path, const VtuFrame& frame) {
