@@ -234,7 +234,7 @@ export class Stage {
     const paints = paints_of(this.root);
     const bar = this.bar();
     if (bar) draw_bar(context, 16, top, width, bar, paints);
-    else if (this.drawn?.field?.flag) this.#key(context, 16, [["flows now", paints.flows], ["elastic", paints.body]], paints);
+    else if (this.drawn?.field?.flag) this.#key(context, 16, [["flows now", paints.flows], ["elastic now", paints.body]], paints);
   }
 
   #key(canvas: Canvas, x: number, entries: [string, string][], paints: Paints): void {
