@@ -69,9 +69,9 @@ std::vector<std::size_t> choose(const RunFrames& run, const Arguments& arguments
   const double to =
       arguments.to.empty() ? std::numeric_limits<double>::infinity() : time_of_option("--to", arguments.to);
   std::vector<std::size_t> frames;
-  for (std::size_t k = 0; k < run.times().size(); ++k) {
+  for (std::size_t k = 0; k < run.count(); ++k) {
     // Frames are written at the first step that is not before the time asked for.
-    if (run.times()[k] >= from && run.times()[k] <= to * 1.001) frames.push_back(k);
+    if (run.time(k) >= from && run.time(k) <= to * 1.001) frames.push_back(k);
   }
   if (frames.empty()) {
     throw UserError(ExitCode::usage, fmt::format("the run `{}` has no frames in this time", arguments.run),

@@ -45,14 +45,14 @@ std::vector<double> times_of(const Arguments& arguments) {
 std::vector<Shown> choose(const std::vector<RunFrames>& runs, const std::vector<double>& times) {
   std::vector<Shown> shown;
   for (const RunFrames& run : runs) {
-    if (times.empty()) shown.push_back({&run, run.times().size() - 1});
+    if (times.empty()) shown.push_back({&run, run.count() - 1});
     for (const double time : times) {
       shown.push_back({&run, run.nearest(time)});
-      const double taken = run.times()[shown.back().frame];
+      const double taken = run.time(shown.back().frame);
       // Frames are written at the first step that is not before: a per cent off is what was meant.
       if (std::fabs(taken - time) <= 0.01 * std::max(std::fabs(time), 1e-9)) continue;
-      say("{}: no frame at {}; the nearest one, at {}, is taken\n", run.folder().string(), human_text(time, "s", 4),
-          human_text(taken, "s", 4));
+      say("{}: no frame at {}; the nearest one, at {}, is taken\n", run.files().folder.string(),
+          human_text(time, "s", 4), human_text(taken, "s", 4));
     }
   }
   return shown;
@@ -60,20 +60,20 @@ std::vector<Shown> choose(const std::vector<RunFrames>& runs, const std::vector<
 
 /// What tells a pane from the others: its run, its time, or both.
 std::string pane_title(const Arguments& arguments, const Shown& shown, bool many_times) {
-  std::string time = "t = " + human_text(shown.run->times()[shown.frame], "s", 4);
+  std::string time = "t = " + human_text(shown.run->time(shown.frame), "s", 4);
   if (arguments.runs.size() == 1) return time;
   return many_times ? shown.run->run_name() + ", " + time : shown.run->run_name();
 }
 
 std::string strip_of(const Arguments& arguments, const std::vector<Shown>& shown, const FrameSurvey& survey) {
   const bool many_times = shown.size() > arguments.runs.size();
-  PictureStrip strip{.title = shown.front().run->case_name()};
+  PictureStrip strip{.title = case_name_of(shown.front().run->files())};
   for (const Shown& one : shown) {
     Picture picture = survey.picture_of(one.run->read(one.frame));
     picture.title = pane_title(arguments, one, many_times);
     strip.pictures.push_back(std::move(picture));
   }
-  if (!many_times) strip.subtitle = "t = " + human_text(shown.front().run->times()[shown.front().frame], "s", 4);
+  if (!many_times) strip.subtitle = "t = " + human_text(shown.front().run->time(shown.front().frame), "s", 4);
   const int usual = shown.size() <= 4 || many_times ? 2 : 3;
   strip.columns = arguments.columns > 0 ? arguments.columns : usual;
   return to_svg(strip);
@@ -84,7 +84,7 @@ ExitCode draw(const Arguments& arguments) {
   const std::vector<double> times = times_of(arguments);
   std::vector<RunFrames> runs;
   for (const std::string& folder : arguments.runs) runs.emplace_back(folder);
-  const FrameView view = frame_view(arguments.common, runs.front().folder());
+  const FrameView view = frame_view(arguments.common, runs.front().files().folder);
   const std::vector<Shown> shown = choose(runs, times);
   FrameSurvey survey(view);
   for (const Shown& one : shown) survey.add(one.run->read(one.frame));
@@ -92,13 +92,13 @@ ExitCode draw(const Arguments& arguments) {
   std::string svg;
   if (shown.size() == 1) {
     Picture picture = survey.picture_of(shown.front().run->read(shown.front().frame));
-    picture.title = shown.front().run->case_name();
+    picture.title = case_name_of(shown.front().run->files());
     svg = to_svg(picture);
   } else {
     svg = strip_of(arguments, shown, survey);
   }
   write_drawing(arguments.common.output, svg, arguments.common.width);
-  const double first = shown.front().run->times()[shown.front().frame];
+  const double first = shown.front().run->time(shown.front().frame);
   say("{}: {}{}\n", arguments.common.output, shown.size() == 1 ? "frame at " + human_text(first, "s", 4) : "",
       shown.size() == 1 ? "" : counted(static_cast<long long>(shown.size()), "frame"));
   return ExitCode::done;

@@ -194,6 +194,7 @@ std::vector<std::vector<Vec2>> read_outlines(const FrameFiles& frame) {
       outline.push_back(grid.points[static_cast<std::size_t>(grid.corners[static_cast<std::size_t>(begin)])]);
     }
   }
+  std::erase_if(outlines, [](const auto& outline) { return outline.size() < 3; });
   return outlines;
 }
 

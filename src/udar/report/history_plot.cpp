@@ -9,7 +9,7 @@
 
 #include "udar/base/error.hpp"
 #include "udar/base/text.hpp"
-#include "udar/report/run_frames.hpp"
+#include "udar/report/run_files.hpp"
 #include "udar/results/histories.hpp"
 #include "udar/results/run_folder.hpp"
 
@@ -277,7 +277,7 @@ Plot history_plot(const PlotRequest& request) {
   }
   const std::vector<Group> groups = request.names.empty() ? usual_sheet(runs.front()) : grouped(quantities);
   const std::vector<std::string> labels = run_labels(request.runs);
-  Plot plot{.title = request.title.empty() ? case_name_of(request.runs.front()) : request.title};
+  Plot plot{.title = request.title.empty() ? case_name_of(find_run_files(request.runs.front())) : request.title};
   for (const Group& group : groups) plot.panels.push_back(panel_of(runs, labels, group, request));
   set_times(plot, request);
   return plot;

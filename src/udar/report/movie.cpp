@@ -62,7 +62,7 @@ void draw_frames(const RunFrames& run, const MovieRequest& request, const MovieP
   }
   const auto svg_of = [&](std::size_t k) {
     Picture picture = survey.picture_of(run.read(request.frames[k]));
-    picture.title = run.case_name();
+    picture.title = case_name_of(run.files());
     return to_svg(picture);
   };
   const int even_width = request.width / 2 * 2;

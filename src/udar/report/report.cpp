@@ -203,8 +203,7 @@ class Report {
   /// Everything that is the same however many frames there are.
   void describe_run() {
     description_ = {{"format", 1}};
-    const std::string name = fs::weakly_canonical(run_.folder).filename().string();
-    description_["case_name"] = run_.summary && !run_.summary->case_name.empty() ? run_.summary->case_name : name;
+    description_["case_name"] = case_name_of(run_);
     description_["version"] = run_.version;
     description_["summary"] = run_.summary ? Json::parse(run_.summary_text) : Json();
     description_["case_text"] = run_.case_text;

@@ -111,14 +111,28 @@ class Reader {
 
 }  // namespace
 
+void check_run_folder(const fs::path& folder) {
+  if (is_run_folder(folder)) return;
+  std::error_code error;
+  const bool there = fs::exists(folder, error);
+  throw UserError(ExitCode::usage,
+                  fmt::format("`{}` {}", folder.string(), there ? "is not the folder of a run" : "is not there"),
+                  "name a folder that `udar run` has made, such as runs/short-beam");
+}
+
+std::string folder_name(const fs::path& folder) {
+  std::error_code error;
+  fs::path whole = fs::absolute(folder, error).lexically_normal();
+  if (!whole.has_filename()) whole = whole.parent_path();
+  return whole.filename().string();
+}
+
+std::string case_name_of(const RunFiles& run) {
+  return run.summary && !run.summary->case_name.empty() ? run.summary->case_name : folder_name(run.folder);
+}
+
 RunFiles find_run_files(const fs::path& folder) {
-  if (!is_run_folder(folder)) {
-    std::error_code error;
-    const bool there = fs::exists(folder, error);
-    throw UserError(ExitCode::usage,
-                    fmt::format("`{}` {}", folder.string(), there ? "is not the folder of a run" : "is not there"),
-                    "name a folder that `udar run` has made, such as runs/short-beam");
-  }
+  check_run_folder(folder);
   RunFiles run;
   run.folder = folder;
   Reader reader(run);
