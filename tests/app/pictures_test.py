@@ -183,7 +183,7 @@ class Pictures(unittest.TestCase):
             (["plot", "one", "corner.velocty_x", "--output", "kept.svg"], "no column", "did you mean `corner.velocity_x`?"),
             (["plot", "one", "--from", "1 m", "--output", "kept.svg"], "`--from`", "s"),
             (["plot", "one", "--from", "50us", "--to", "10us", "--output", "kept.svg"], "--to is not after", "later"),
-            (["plot", "nothing", "--output", "kept.svg"], "`nothing` is not there", "folder of a run"),
+            (["plot", "nothing", "--output", "kept.svg"], "`nothing` is not there", "a folder that `udar run` has made"),
             (["plot", ".", "--output", "kept.svg"], "`.` is not the folder of a run", "`udar run`"),
             (["plot", "one", "--output", "kept.jpg"], "`kept.jpg` does not end in", "--output"),
             (["plot", "one"], "a file to make is needed", "--output"),
