@@ -86,6 +86,21 @@ TEST_CASE("a picture has the values of the frame, in the unit that is shown") {
   CHECK(size.field->values[2] == doctest::Approx(mean));
 }
 
+TEST_CASE("a rigid body has no stress, but it moves") {
+  const SmallRun run({1e-3});
+  Frame frame = RunFrames(run.folder).read(0);
+  frame.rigid = {0, 1};
+  for (const bool smooth : {false, true}) {
+    FrameView view = view_of_field("sigma1");
+    view.smooth = smooth;
+    const Picture picture = picture_of(frame, view);
+    CHECK(std::isfinite(picture.field->values.front()));
+    CHECK(std::isnan(picture.field->values.back()));
+    CHECK(picture.field->max.value() == doctest::Approx(2));  // that of the first body alone, which has -2 MPa
+  }
+  CHECK(std::isfinite(picture_of(frame, view_of_field("velocity")).field->values.back()));
+}
+
 TEST_CASE("smooth values are the means round each node, bodies apart") {
   const SmallRun run({1e-3});
   const Frame frame = RunFrames(run.folder).read(0);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "udar/base/error.hpp"
 #include "udar/base/text.hpp"
@@ -58,6 +59,18 @@ std::vector<double> cell_numbers(const Frame& frame, std::string_view name) {
   return std::visit([](const auto& values) { return std::vector<double>(values.begin(), values.end()); }, array.values);
 }
 
+/// The same; none on rigid bodies, which have no stress.
+std::vector<double> solid_numbers(const Frame& frame, std::string_view name) {
+  std::vector<double> values = cell_numbers(frame, name);
+  if (std::find(frame.rigid.begin(), frame.rigid.end(), 1) == frame.rigid.end()) return values;
+  const std::vector<std::int32_t> bodies = bodies_of_triangles(frame);
+  for (std::size_t t = 0; t < values.size(); ++t) {
+    const auto body = static_cast<std::size_t>(bodies[t]);
+    if (body < frame.rigid.size() && frame.rigid[body] != 0) values[t] = std::numeric_limits<double>::quiet_NaN();
+  }
+  return values;
+}
+
 double part_of(Vec2 vector, Of of) {
   if (of == Of::x) return vector.x;
   if (of == Of::y) return vector.y;
@@ -99,7 +112,7 @@ std::vector<Vec2> node_vectors(const Frame& frame, std::string_view name) {
 }
 
 std::vector<double> element_values(const Frame& frame, const FieldKind& kind) {
-  if (kind.of == Of::elements) return cell_numbers(frame, kind.array);
+  if (kind.of == Of::elements) return solid_numbers(frame, kind.array);
   const std::vector<Vec2> vectors = node_vectors(frame, kind.array);
   std::vector<double> values;
   values.reserve(frame.triangles.size());
@@ -118,7 +131,7 @@ std::vector<double> node_values(const Frame& frame, const FieldKind& kind) {
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = part_of(vectors[i], kind.of);
     return values;
   }
-  const std::vector<double> of_cells = cell_numbers(frame, kind.array);
+  const std::vector<double> of_cells = solid_numbers(frame, kind.array);
   std::vector<int> counts(values.size());
   for (std::size_t t = 0; t < frame.triangles.size(); ++t) {
     for (const std::int32_t corner : frame.triangles[t]) {

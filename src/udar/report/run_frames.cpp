@@ -51,6 +51,9 @@ Frame RunFrames::read(std::size_t number) const {
   frame.time = files.time;
   frame.triangles = triangles_of(frame.bodies, files.bodies);
   frame.obstacles = read_outlines(files);
+  if (files_.summary) {
+    for (const BodySummary& body : files_.summary->bodies) frame.rigid.push_back(body.rigid ? 1 : 0);
+  }
   return frame;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ struct Frame {
   VtuGrid bodies;
   std::vector<std::array<std::int32_t, 3>> triangles;  ///< of `bodies`
   std::vector<std::vector<Vec2>> obstacles;            ///< closed outlines, m
+  std::vector<std::uint8_t> rigid;                     ///< for each body 1 where it is; empty: none is, or unknown
 };
 
 /// The frames of a run, in the order of time.
