@@ -68,4 +68,5 @@ export const css_colour = (map: ColourMap, k: number): string =>
   `rgb(${map.table[4 * k]} ${map.table[4 * k + 1]} ${map.table[4 * k + 2]})`;
 
 /** Curves of a plot: told apart by people who see colours differently (Okabe and Ito 2008), on light and dark. */
-export const curves = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6bb1", "#7f7f7f"];
+export const curves = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#8c6bb1", "#7f7f7f", "#b3a100", "#004c6d",
+  "#a6444f", "#4d9221", "#c77cff", "#5c5c8a"];

@@ -53,7 +53,7 @@ export function look_bar(
   const field = choice("Field", [["none", "none"], ...fields.map((f) => [f.id, f.label] as const)],
     now()?.id ?? "none", (value) => store.set({ field: value, range: store.now.range === "own" ? "run" : store.now.range }));
   field.select.id = "field";
-  const map = choice("colours", [["", "suited"], ...Object.entries(maps).map(([id, m]) => [id, m.label] as const)],
+  const map = choice("colours", [["", "automatic"], ...Object.entries(maps).map(([id, m]) => [id, m.label] as const)],
     store.now.map, (value) => store.set({ map: value }));
   const range = choice("Range", [["run", "of the run"], ["frame", "of this frame"], ["own", "my own"]],
     store.now.range, (value) => store.set({ range: value as Shown["range"] }));
@@ -64,6 +64,7 @@ export function look_bar(
       const other = key === "low" ? store.now.high : store.now.low;
       const fits = input.value !== "" && (key === "low" ? value < other : value > other);
       input.setAttribute("aria-invalid", String(!fits));
+      input.title = fits ? "" : "the lowest colour must stand for less than the highest";
       if (fits) store.set({ range: "own", [key]: value });
     } });
     return input;
@@ -74,7 +75,7 @@ export function look_bar(
   const unit_choice = h("span", { class: "bar" });
   for (const si of ["Pa", "m"]) {
     const kind = si === "Pa" ? "stresses in" : "lengths in";
-    const select = choice(kind, [["", "suited"], ...choices(si).map((u) => [u.name, u.name] as const)],
+    const select = choice(kind, [["", "automatic"], ...choices(si).map((u) => [u.name, u.name] as const)],
       units.chosen(si)?.name ?? "", (name) => {
         units.choose(si, name);
         store.set({ units: store.now.units + 1 });
@@ -89,7 +90,11 @@ export function look_bar(
     map.select.value = store.now.map;
     const bare = !shown || shown.flag === true;
     for (const input of [low, high, range.select, map.select]) input.disabled = bare;
-    const show = (value: number): string => (bare ? "" : String(Number((value / unit().size).toPrecision(4))));
+    const show = (value: number): string => {
+      const here = Number((value / unit().size).toPrecision(4));
+      const is_plain = here === 0 || (Math.abs(here) >= 1e-3 && Math.abs(here) < 1e5);
+      return bare ? "" : is_plain ? String(here) : here.toExponential().replace("+", "");
+    };
     low.value = show(store.now.low);
     high.value = show(store.now.high);
     unit_name.textContent = bare ? "" : unit().name;
@@ -129,7 +134,7 @@ export function view_bar(
     button("zoom-out", "−", "Smaller (-)", () => view.zoom(0.8)),
     follow.label,
     button("save-picture", "PNG", "Save this picture as PNG (p)", picture),
-    button("save-film", "video", "Save the animation as a video, at this speed and view", film));
+    button("save-film", "video", "Save the animation as a video of this view. It is recorded as it plays: where drawing is slower than the speed chosen, so is the video", film));
 }
 
 /** Keys of the whole page; those typed into a field of the page stay there. */

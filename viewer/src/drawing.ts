@@ -77,14 +77,16 @@ export function draw_scale(canvas: Canvas, scale: number, unit: Unit, paints: Pa
   const px = length * unit.size * scale;
   const [x, y] = [14, height - 14];
   canvas.save();
-  canvas.lineWidth = 1.5;
-  canvas.strokeStyle = canvas.fillStyle = paints.ink;
   canvas.beginPath();
   canvas.moveTo(x, y - 5);
   canvas.lineTo(x, y);
   canvas.lineTo(x + px, y);
   canvas.lineTo(x + px, y - 5);
-  canvas.stroke();
+  for (const [width, colour] of [[4.5, paints.paper], [1.5, paints.ink]] as const) {
+    canvas.lineWidth = width;
+    canvas.strokeStyle = colour;
+    canvas.stroke();
+  }
   halo(canvas, `${digits(length)} ${unit.name}`, x + px / 2, y - 6, "center", paints);
   canvas.restore();
 }

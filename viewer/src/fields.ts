@@ -10,16 +10,20 @@ export interface Field {
   needs: string[];
   /** Both signs mean something: colours part at 0. */
   signed: boolean;
-  /** Yes or no instead of a number. */
+  /** A state instead of a number: flows now, has flowed, never did. */
   flag?: boolean;
   from: (...values: number[]) => number;
 }
 
 const same = (value: number): number => value;
+/** 1 where it flows now, a half where it has flowed, else 0. */
+const flow = (now: number, strain: number): number => (now > 0.5 ? 1 : strain > 0 ? 0.5 : 0);
+export const flow_words = (value: number): string => (value > 0.75 ? "yes" : value > 0.25 ? "it has flowed" : "no");
 const size = (x: number, y: number): number => Math.hypot(x, y);
 
 const all: Field[] = [
   field("plastic_strain", "Plastic strain", "", ["plastic_strain"], same),
+  { ...field("flows_now", "Flows now", "", ["flows_now", "plastic_strain"], flow), flag: true },
   { ...field("flows_now", "Flows now", "", ["flows_now"], same), flag: true },
   signed("principal_1", "Principal stress 1", "Pa", ["principal_1"], same),
   signed("principal_2", "Principal stress 2", "Pa", ["principal_2"], same),

@@ -44,6 +44,26 @@ export function choice(
   return { label: h("label", { class: "choice" }, h("span", {}, label), select), select };
 }
 
+/** What words of tables and plots mean; docs/theory.md and docs/glossary.md say it exactly. */
+const meanings: Record<string, string> = {
+  "first touch": "when a contact force acts for the first time",
+  left: "when the last contact force has ended",
+  "99 % of push": "time from the first touch until 99 % of the final impulse",
+  "peak force": "largest sum of the contact forces",
+  "impulse, N s": "x and y, on the bodies; of two bodies on the first one",
+  e: "restitution: velocity away over velocity towards each other, of the centres of mass of what touched",
+  "e along": "restitution along the boundary: -1 without friction, 0 where it ends up rolling, 1 where it is thrown back",
+  elastic: "stress work that was not plastic",
+  dropped: "energy in contact springs that were let go while loaded",
+  total: "kinetic + elastic + plastic + contact + ties + friction + dropped + damping; gravity, loads, supports and moving obstacles bring energy in from outside",
+  error: "total less what was there at the start and what came in from outside",
+  "momentum error": "largest over time: momentum less impulses, part of the momentum",
+  "energy error": "largest over time: part of the energy that the books do not account for",
+  penetration: "deepest penetration of a node over the size of the boundary there",
+};
+
+export const meaning = (words: string): string | undefined => meanings[words];
+
 /** A table with a heading row; the first column names the row, numbers stand on the right. */
 export function table(caption: string, heads: string[], rows: string[][]): HTMLElement {
   const row = (cells: string[]) =>
@@ -55,7 +75,7 @@ export function table(caption: string, heads: string[], rows: string[][]): HTMLE
       "table",
       {},
       h("caption", {}, caption),
-      h("thead", {}, h("tr", {}, ...heads.map((head) => h("th", { scope: "col" }, head)))),
+      h("thead", {}, h("tr", {}, ...heads.map((head) => h("th", { scope: "col", title: meaning(head) }, head)))),
       h("tbody", {}, ...rows.map(row)),
     ),
   );

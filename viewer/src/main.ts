@@ -27,7 +27,7 @@ const start: Shown = {
 };
 
 function theme_choice(store: Store<Shown>, changed: () => void): HTMLElement {
-  const theme = choice("page", [["", "as the system"], ["light", "light"], ["dark", "dark"]], "", (value) => {
+  const theme = choice("theme", [["", "as the system"], ["light", "light"], ["dark", "dark"]], "", (value) => {
     store.set({ theme: value as Shown["theme"] });
   });
   theme.select.id = "theme";
@@ -47,15 +47,19 @@ function sections_of(run: Run): { title: string; open: boolean; histories: Histo
     histories.forEach((h) => rest.delete(h));
     return { title, histories, open: open && histories.length <= 8 };
   };
-  const bodies = new Set(run.bodies.map((b) => b.name));
+  const bodies = new Set((run.summary?.bodies ?? run.bodies).map((b) => b.name));
+  const has = (history: History, column: string) => history.columns.some((c) => c.name === column);
+  const order = ["Energy", "Observed", "Contact forces", "Bodies", "Supports", "Momentum"];
   return [
     take("Energy", (h) => h.name === "energy"),
-    take("Observed", (h) => h.name in run.observed),
-    take("Contact forces", (h) => h.columns.some((c) => c.name === "touching_nodes")),
-    take("Bodies", (h) => bodies.has(h.name)),
+    take("Contact forces", (h) => has(h, "touching_nodes")),
+    take("Supports", (h) => has(h, "reaction_x")),
+    take("Bodies", (h) => bodies.has(h.name) && has(h, "spin")),
     take("Momentum", (h) => h.name === "momentum", false),
-    take("More", () => true),
-  ].filter(({ histories }) => histories.length > 0);
+    take("Observed", () => true), // by the case: whatever the program does not watch by itself
+  ]
+    .sort((a, b) => order.indexOf(a.title) - order.indexOf(b.title))
+    .filter(({ histories }) => histories.length > 0);
 }
 
 function history_sections(run: Run, plots: Plots): HTMLElement[] {
@@ -84,9 +88,15 @@ async function open_page(): Promise<void> {
   units.follow(run.case_text);
   const frames = new Frames(run, new Blocks(room));
   const asked = from_address(location.hash.slice(1), frames.count, run.nodes, run.elements);
-  const has = (name: string): boolean => frames.quantity(name) !== undefined;
-  const field = ["plastic_strain", "principal_1", "max_shear"].find(has) ?? "";
-  const store = new Store<Shown>({ ...start, field, ...asked });
+  const fields = fields_of(frames);
+  if (!fields.some((f) => f.id === asked.field)) delete asked.field;
+  // The first one that is not 0 in all frames.
+  const is_something = (name: string): boolean =>
+    frames.quantity(name)?.chunks.some(({ low = 0, step = 0 }) => low !== 0 || step !== 0) ?? false;
+  const field = ["plastic_strain", "max_shear", "principal_1", "speed"]
+    .map((id) => fields.find((f) => f.id === id))
+    .find((f) => f?.needs.some(is_something)) ?? fields[0];
+  const store = new Store<Shown>({ ...start, field: field?.id ?? "", ...asked });
 
   by_id("head").append(header(run), theme_choice(store, () => {
     stage.repaint();
@@ -104,7 +114,6 @@ async function open_page(): Promise<void> {
   const bar = by_id<HTMLCanvasElement>("bar");
   const paint_bar = (): void => stage.paint_bar(bar);
   let is_drawn = false;
-  const fields = fields_of(frames);
   const show = new Show(frames, fields, store, stage, (drawn) => {
     is_drawn = drawn;
     by_id("loading").hidden = drawn;
@@ -194,6 +203,7 @@ async function open_page(): Promise<void> {
     addEventListener("hashchange", () => store.set(from_address(location.hash.slice(1), frames.count, run.nodes, run.elements)));
   }
   document.body.dataset.ready = "true";
+  setTimeout(() => plots.make_some(60), 1500);
 }
 
 open_page().catch((error: unknown) => failed(error instanceof Error ? error.message : String(error)));

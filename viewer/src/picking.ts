@@ -1,5 +1,5 @@
 // A node or element that the user points at: what it is, what it feels now, what it felt over time.
-import { field_series, type Field } from "./fields.ts";
+import { field_series, flow_words, type Field } from "./fields.ts";
 import type { Frames } from "./frames.ts";
 import { choice, h } from "./html.ts";
 import { element_at } from "./mesh.ts";
@@ -49,9 +49,11 @@ export class Picking {
     });
     const by_number = (): void => {
       const numbers = this.on === "nodes" ? frames.node_numbers : frames.element_numbers;
-      const index = numbers.indexOf(Number(this.#number.value));
-      if (index >= 0) store.set({ picked: { on: this.on, index } });
-      else this.#what.textContent = `There is no ${this.on === "nodes" ? "node" : "element"} ${this.#number.value}.`;
+      const kind = this.on === "nodes" ? "node" : "element";
+      const number = this.#number.value.trim();
+      const index = number === "" ? -1 : numbers.indexOf(Number(number));
+      store.set({ picked: index >= 0 ? { on: this.on, index } : null });
+      if (index < 0) this.#what.textContent = number === "" ? `Write the number of a ${kind}.` : `There is no ${kind} ${number}.`;
     };
     this.#number.addEventListener("keydown", (event) => {
       if (event.key === "Enter") by_number();
@@ -99,16 +101,31 @@ export class Picking {
     if (!picked || !drawn) return;
     const say = (name: string, value: string, key: string) =>
       this.#now.append(h("dt", {}, name), h("dd", { "data-value": key }, value));
-    if (picked.on === "nodes") {
-      const [ox, oy] = this.frames.origin;
-      say("x", with_unit(drawn.places[2 * picked.index] + ox, "m", this.units, 5), "x");
-      say("y", with_unit(drawn.places[2 * picked.index + 1] + oy, "m", this.units, 5), "y");
-    }
-    if (drawn.field && drawn.values && drawn.field.on === picked.on) {
+    const [x, y] = [0, 1].map((k) => drawn.places.filter((_, i) => i % 2 === k));
+    const [ox, oy] = this.frames.origin;
+    const of = (places: Float32Array): number =>
+      picked.on === "nodes" ? places[picked.index] : this.#mean(picked, places);
+    say("x", with_unit(of(x) + ox, "m", this.units, 5), "x");
+    say("y", with_unit(of(y) + oy, "m", this.units, 5), "y");
+    if (!drawn.field || !drawn.values) return;
+    const { field } = drawn;
+    if (field.on === picked.on) {
       const value = drawn.values[picked.index];
-      const words = drawn.field.flag ? (value > 0.5 ? "yes" : "no") : with_unit(value, drawn.field.unit, this.units);
-      say(drawn.field.label, words, drawn.field.id);
+      say(field.label, field.flag ? flow_words(value) : with_unit(value, field.unit, this.units), field.id);
+    } else if (!field.flag) {
+      const where = picked.on === "nodes" ? "mean of the elements round it" : "mean of its nodes";
+      say(`${field.label}, ${where}`, with_unit(this.#mean(picked, drawn.values), field.unit, this.units), field.id);
     }
+  }
+
+  /** Of an element's nodes, or of the elements round a node. */
+  #mean({ on, index }: Picked, values: Float32Array): number {
+    const { corners } = this.frames;
+    const elements = corners.length / 3;
+    const found: number[] = [];
+    if (on === "elements") for (let c = 0; c < 3; ++c) found.push(values[corners[c * elements + index]]);
+    else corners.forEach((node, k) => node === index && found.push(values[k % elements]));
+    return found.reduce((sum, v) => sum + v, 0) / found.length;
   }
 
   async #show(): Promise<void> {

@@ -2,7 +2,7 @@
 import uPlot from "uplot";
 import type { Blocks } from "./blocks.ts";
 import { curves } from "./colours.ts";
-import { h } from "./html.ts";
+import { h, meaning } from "./html.ts";
 import type { History, Run } from "./run.ts";
 import type { Shown, Store } from "./store.ts";
 import { digits, type Units } from "./units.ts";
@@ -144,6 +144,7 @@ export class Plots {
     const is_something = ({ values }: Curve): boolean => values.some((v) => v !== 0);
     const quiet = all.curves.length > 4 ? all.curves.filter((curve) => !is_something(curve)) : [];
     const data = { ...all, curves: all.curves.filter((curve) => !quiet.includes(curve)) };
+    const colour_of = (curve: Curve): string => curves[all.curves.indexOf(curve) % curves.length];
     const most = data.curves.reduce((sofar, { values }) => values.reduce((m, v) => Math.max(m, Math.abs(v) || 0), sofar), 0);
     const unit = this.units.for(data.unit, most);
     const time_unit = this.units.for("s", this.run.summary?.end_time ?? data.times[data.times.length - 1] ?? 0);
@@ -152,14 +153,14 @@ export class Plots {
     const say = (value: number): string => digits(Math.abs(value) < 1e-9 * most ? 0 : value / unit.size);
     const figures = h("tbody");
     const heads = ["", "maximum", "now", "minimum"].map((head) => h("th", { scope: "col" }, head));
-    const cells = data.curves.map((curve, k) => {
+    const cells = data.curves.map((curve) => {
       const [high, now, low] = [h("td"), h("td", { class: "now" }), h("td")];
       const known = curve.values.filter((v) => Number.isFinite(v));
       high.textContent = say(known.reduce((a, b) => Math.max(a, b), -Infinity));
       low.textContent = say(known.reduce((a, b) => Math.min(a, b), Infinity));
       const dot = h("span", { class: "dot" });
-      dot.style.background = curves[k % curves.length];
-      figures.append(h("tr", {}, h("th", { scope: "row" }, dot, curve.name), high, now, low));
+      dot.style.background = colour_of(curve);
+      figures.append(h("tr", {}, h("th", { scope: "row", title: meaning(curve.name) }, dot, curve.name), high, now, low));
       return now;
     });
     const element = h("div", { class: "curves", role: "img", "aria-label": `${data.title} over time` });
@@ -189,7 +190,7 @@ export class Plots {
         cursor: { points: { show: false }, drag: { x: true, y: false } },
         scales: { x: { time: false } },
         axes: [{ ...axis(), size: 26 }, { ...axis(), size: 58 }],
-        series: [{}, ...data.curves.map((_, k) => ({ stroke: curves[k % curves.length], width: 1.5, spanGaps: false }))],
+        series: [{}, ...data.curves.map((curve) => ({ stroke: colour_of(curve), width: 1.5, spanGaps: false }))],
         hooks: { draw: [(self) => mark_time(self)] },
       },
       [scaled(data.times, time_unit.size), ...data.curves.map((c) => scaled(c.values, unit.size))],
@@ -210,6 +211,14 @@ export class Plots {
     update();
     this.#drawn.set(place, { plot, element, update, in_sight: true });
     this.#sight.observe(place);
+  }
+
+  /** Makes the plots of open sections that were not in sight yet, so that a print has them; not of a heap of bodies. */
+  make_some(most: number): void {
+    for (const [place, make] of [...this.#makers].slice(0, most)) {
+      this.#makers.delete(place);
+      if (place.isConnected) make();
+    }
   }
 
   /** Draws all again, for other units or colours. */

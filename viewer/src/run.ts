@@ -94,6 +94,7 @@ export interface Summary {
   stop_reason: string;
   machine?: { processor: string; threads: number };
   started?: string;
+  bodies?: { name: string }[];
   contacts: Record<string, Contact>;
 }
 

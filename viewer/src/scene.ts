@@ -43,8 +43,9 @@ uniform bool is_flag;
 uniform vec2 range;
 uniform vec4 none;
 uniform vec4 plain;
+uniform vec4 flowed;
 uniform vec4 flagged;
-uniform vec4 line;  // of the mesh; its opacity is 0 where elements are too small
+uniform float line;  // opacity of the mesh; 0 where elements are too small
 flat in float value_of_element;
 in float value_of_node;
 in vec3 weight;
@@ -54,14 +55,17 @@ void main() {
   if (value > 1e38) {
     colour = none;
   } else if (is_flag) {
-    colour = value > 0.5 ? flagged : plain;
+    colour = value > 0.75 ? flagged : value > 0.25 ? flowed : plain;
   } else {
     float part = clamp((value - range.x) / (range.y - range.x), 0.0, 1.0);
     colour = texture(colours, vec2((part * 255.0 + 0.5) / 256.0, 0.5));
   }
   vec3 px = weight / fwidth(weight);
   float near = 1.0 - smoothstep(0.3, 0.9, min(px.x, min(px.y, px.z)));
-  colour.rgb = mix(colour.rgb, line.rgb, near * line.a);
+  // Dark lines on light elements, light ones on dark elements.
+  float lightness = dot(colour.rgb, vec3(0.3, 0.6, 0.1));
+  vec3 ink = lightness < 0.35 ? vec3(0.75) : vec3(0.1);
+  colour.rgb = mix(colour.rgb, ink, near * line);
 }`;
 
 // Lines as narrow rectangles: WebGL's own are one px wide everywhere.
@@ -142,9 +146,10 @@ export interface Look {
   low: number;
   high: number;
   is_flag: boolean;
-  mesh: Colour;
+  mesh: number; // opacity of its lines
   none: Colour;
   plain: Colour;
+  flowed: Colour;
   flagged: Colour;
   outline: Colour | null;
   ghost: Colour | null;
@@ -250,6 +255,7 @@ export class Scene {
       range: [look.low, look.high],
       none: look.none,
       plain: look.plain,
+      flowed: look.flowed,
       flagged: look.flagged,
       line: look.mesh,
     });

@@ -31,13 +31,13 @@ export interface Drawn {
   forces: Forces | null;
 }
 
-function paints_of(root: HTMLElement): Paints & { body: string; flows: string; none: string } {
+function paints_of(root: HTMLElement): Paints & { body: string; flows: string; flowed: string; none: string } {
   const style = getComputedStyle(root);
   const of = (name: string): string => style.getPropertyValue(`--${name}`).trim();
   return {
     paper: of("paper"), ink: of("ink"), faint: of("faint"), obstacle: of("obstacle"),
     obstacle_edge: of("obstacle-edge"), hatch: of("hatch"), accent: of("accent"),
-    body: of("body"), flows: of("flows"), none: of("none"),
+    body: of("body"), flows: of("flows"), flowed: of("flowed"), none: of("none"),
   };
 }
 
@@ -132,9 +132,10 @@ export class Stage {
       low,
       high,
       is_flag: drawn.field?.flag ?? false,
-      mesh: colour(paints.ink, mesh ? 0.4 * fade : 0),
+      mesh: mesh ? 0.4 * fade : 0,
       none: colour(paints.none),
       plain: colour(paints.body),
+      flowed: colour(paints.flowed),
       flagged: colour(paints.flows),
       outline: outline ? colour(paints.ink, 0.95) : null,
       ghost: ghost ? colour(paints.faint, 0.9) : null,
@@ -234,7 +235,7 @@ export class Stage {
     const paints = paints_of(this.root);
     const bar = this.bar();
     if (bar) draw_bar(context, 16, top, width, bar, paints);
-    else if (this.drawn?.field?.flag) this.#key(context, 16, [["flows now", paints.flows], ["elastic now", paints.body]], paints);
+    else if (this.drawn?.field?.flag) this.#key(context, 16, [["flows now", paints.flows], ["has flowed", paints.flowed], ["never flowed", paints.body]], paints);
   }
 
   #key(canvas: Canvas, x: number, entries: [string, string][], paints: Paints): void {

@@ -1,5 +1,5 @@
 // What is said of the run in words and tables.
-import { h, table } from "./html.ts";
+import { h, meaning, table } from "./html.ts";
 import type { Contact, Run } from "./run.ts";
 import { digits, with_unit, type Units } from "./units.ts";
 
@@ -9,7 +9,7 @@ const seconds = (s: number): string => (s < 100 ? `${digits(s, 3)} s` : `${Math.
 /** Name, verdict and the numbers to look at first. */
 export function header(run: Run): HTMLElement {
   const { summary: s } = run;
-  const fact = (name: string, value: string) => h("div", {}, h("dt", {}, name), h("dd", {}, value));
+  const fact = (name: string, value: string) => h("div", { title: meaning(name) }, h("dt", {}, name), h("dd", {}, value));
   const stops: Record<string, string> = {
     interrupted: "interrupted", numerical: "stopped by a numerical failure", disk: "stopped by a full disk",
   };
@@ -50,6 +50,7 @@ export function notes(run: Run): HTMLElement | null {
 
 export function contacts(run: Run, units: Units): HTMLElement[] {
   const all = Object.entries(run.summary?.contacts ?? {}).filter(([, c]) => c.episodes.length > 0);
+  if (!run.summary) return [h("p", {}, "Contacts are not known: the run left no summary.")];
   if (all.length === 0) return [h("p", {}, "Nothing touched.")];
   const most = 40;
   const shown = [...all].sort(([, a], [, b]) => (b.peak_force ?? 0) - (a.peak_force ?? 0)).slice(0, most);
@@ -74,7 +75,7 @@ export function contacts(run: Run, units: Units): HTMLElement[] {
   out.push(
     table(
       "Episodes",
-      ["between", "", "touch", "duration", "peak force", "impulse, N s", "restitution", "tangential"],
+      ["between", "", "touch", "duration", "peak force", "impulse, N s", "e", "e along"],
       some.map(({ name, e, k }) => [
         name, String(k + 1), time(e.first_touch), e.separation === null ? "still on" : time(e.duration),
         with_unit(e.peak_force, "N", units), vector(e.impulse), digits(e.restitution, 3),

@@ -14,8 +14,8 @@ namespace {
 constexpr const char* picture_footer = R"(Examples:
   udar picture runs/short-beam --output end.png
   udar picture runs/short-beam --time "0.5 ms" --field sigma1 --unit "kgf/cm^2" --output stress.pdf
-  udar picture runs/short-beam --field sigma1 --times 10us,20us,40us,80us --columns 2 --output strip.png
-  udar picture runs/coarse runs/medium --time 0.5ms --field flows --output meshes.svg
+  udar picture runs/short-beam --field sigma1 --times 20us,40us,60us,80us --columns 2 --output strip.png
+  udar picture runs/coarse runs/short-beam --time 0.5ms --field flows --output meshes.svg
 
 The frame nearest to a time is taken. Several times, or several runs, make one picture of small ones,
 with one range of colours. PNG and PDF need the program rsvg-convert (Debian: librsvg2-bin).)";
@@ -66,15 +66,17 @@ std::string pane_title(const Arguments& arguments, const Shown& shown, bool many
 }
 
 std::string strip_of(const Arguments& arguments, const std::vector<Shown>& shown, const FrameSurvey& survey) {
-  const bool many_times = shown.size() > arguments.runs.size();
+  const auto time_of = [](const Shown& one) { return human_text(one.run->time(one.frame), "s", 4); };
+  const bool many_times =
+      std::any_of(shown.begin(), shown.end(), [&](const Shown& one) { return time_of(one) != time_of(shown.front()); });
   PictureStrip strip{.title = case_name_of(shown.front().run->files())};
   for (const Shown& one : shown) {
     Picture picture = survey.picture_of(one.run->read(one.frame));
     picture.title = pane_title(arguments, one, many_times);
     strip.pictures.push_back(std::move(picture));
   }
-  if (!many_times) strip.subtitle = "t = " + human_text(shown.front().run->time(shown.front().frame), "s", 4);
-  const int usual = shown.size() <= 4 || many_times ? 2 : 3;
+  if (!many_times) strip.subtitle = "t = " + time_of(shown.front());
+  const int usual = shown.size() <= 4 || shown.size() > arguments.runs.size() ? 2 : 3;
   strip.columns = arguments.columns > 0 ? arguments.columns : usual;
   return to_svg(strip);
 }

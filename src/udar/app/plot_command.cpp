@@ -14,7 +14,7 @@ namespace {
 constexpr const char* plot_footer = R"(Examples:
   udar plot runs/short-beam --output sheet.pdf
   udar plot runs/short-beam corner.displacement_y stop.force_y --to "0.5 ms" --output corner.png
-  udar plot runs/coarse runs/medium corner.displacement_y --output meshes.svg
+  udar plot runs/coarse runs/short-beam corner.displacement_y --output meshes.svg
 
 A history is a file of histories/, a column what its first line names: corner.displacement_y.
 corner.displacement is x and y, corner all that it has. Curves in one unit share a panel.

@@ -1,11 +1,14 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 
 #include "udar/app/commands.hpp"
 #include "udar/app/terminal.hpp"
+#include "udar/report/field.hpp"
 #include "udar/report/report.hpp"
 #include "udar/results/file.hpp"
 
@@ -27,6 +30,13 @@ struct ReportArguments {
   std::size_t frames = 0;           ///< at most; 0: all
   std::string page;                 ///< a viewer to take instead of the one built in
 };
+
+/// "sigma1" -> "principal_1": the short names of udar picture serve here too.
+std::string whole_name(const std::string& name) {
+  const auto kinds = field_kinds();
+  const auto at = std::find_if(kinds.begin(), kinds.end(), [&](const FieldKind& k) { return k.short_name == name; });
+  return name.empty() || at == kinds.end() ? name : std::string(at->name);
+}
 
 /// "25 MB", "500 kB", "1.5 GB"; a plain number is in MB.
 std::size_t bytes_of(std::string_view text) {
@@ -53,7 +63,11 @@ ExitCode report_run(const ReportArguments& arguments) {
   ReportOptions options;
   options.output = arguments.output;
   options.limit = bytes_of(arguments.limit);
-  options.fields = arguments.fields;
+  for (const std::string& name : arguments.fields) options.fields.push_back(whole_name(name));
+  if (!arguments.output.empty() && std::filesystem::path(arguments.output).extension() != ".html") {
+    throw UserError(ExitCode::usage, fmt::format("`{}` does not end in .html", arguments.output),
+                    "the report is a page: give --output such a name");
+  }
   options.frames = arguments.frames;
   constexpr std::size_t largest_page = 1 << 26;
   const std::string page = arguments.page.empty() ? "" : read_file(arguments.page, largest_page);
@@ -78,14 +92,14 @@ Command add_report(CLI::App& app) {
   words->add_option("--fields", arguments->fields, "Only these fields: plastic_strain,principal_1")
       ->type_name("NAME,...")
       ->delimiter(',');
-  words->add_option("--frames", arguments->frames, "At most so many frames, 2 or more")
+  words->add_option("--frames", arguments->frames, "At most so many frames, 2 or more: every k-th of those there are")
       ->type_name("N")
       ->check(CLI::Range(2, 1'000'000).description(""));
   words->add_option("--output", arguments->output, "File to write; else report.html in the folder of the run")
       ->type_name("FILE");
   // For those who work on the viewer.
   words->add_option("--template", arguments->page, "")->group("");
-  return {words, [arguments] { return report_run(*arguments); }};
+  return {words, [arguments] { return report_run(*arguments); }, "made"};
 }
 
 }  // namespace udar

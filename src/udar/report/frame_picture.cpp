@@ -115,7 +115,7 @@ Extent FrameSurvey::view_for(const Frame& frame) const {
 void FrameSurvey::paint(const Frame& frame, Picture& picture) const {
   const FieldKind& kind = *view_.field;
   if (kind.of == FieldKind::Of::flow) {
-    picture.highlight = PictureHighlight{"flows now", flow_flags(frame), "has flowed"};
+    picture.highlight = PictureHighlight{"flows now", flow_flags(frame), "has flowed", "never flowed"};
     return;
   }
   if (kind.of == FieldKind::Of::contact) {

@@ -128,7 +128,16 @@ std::string folder_name(const fs::path& folder) {
 }
 
 std::string case_name_of(const RunFiles& run) {
-  return run.summary && !run.summary->case_name.empty() ? run.summary->case_name : folder_name(run.folder);
+  if (run.summary && !run.summary->case_name.empty()) return run.summary->case_name;
+  // "case short-beam: 12800 elements", written when the run began.
+  for (std::size_t begin = 0; begin < run.log.size();) {
+    const std::size_t end = std::min(run.log.find('\n', begin), run.log.size());
+    const std::string line = run.log.substr(begin, end - begin);
+    const std::size_t colon = line.rfind(": ");
+    if (line.starts_with("case ") && colon != std::string::npos && colon > 5) return line.substr(5, colon - 5);
+    begin = end + 1;
+  }
+  return folder_name(run.folder);
 }
 
 RunFiles find_run_files(const fs::path& folder) {

@@ -36,7 +36,7 @@ void check_run_folder(const std::filesystem::path& folder);
 /// Looks into a run folder. Throws UserError (usage) where `folder` is none.
 RunFiles find_run_files(const std::filesystem::path& folder);
 
-/// The name of the case; where the run left no summary, that of the folder.
+/// The name of the case, as the summary or the log tells; where both are missing that of the folder.
 std::string case_name_of(const RunFiles& run);
 /// The name of a folder, also of "." and of "runs/a/".
 std::string folder_name(const std::filesystem::path& folder);

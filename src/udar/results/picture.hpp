@@ -34,6 +34,7 @@ struct PictureHighlight {
   std::string name;
   std::vector<std::uint8_t> flags;  ///< one for each triangle: 1 stands out, 2 somewhat less, 0 not
   std::string second_name{};        ///< of those with 2
+  std::string rest_name{};          ///< of those with 0
 };
 
 /// A vector drawn around its place; the longest of a picture is as long as an arrow may be.

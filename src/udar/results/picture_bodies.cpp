@@ -22,7 +22,7 @@ constexpr std::array<std::string_view, 25> two_sided_colours{
 
 // What stands for no value; then there come the colours of the field.
 enum Paint : std::size_t { no_value_paint, body_paint, dark_body_paint, highlight_paint, second_paint, field_paint };
-constexpr std::array<std::string_view, field_paint> plain_paints{"#9aa3ab", "#7d9cbb", "#3f5a78", picture_highlight,
+constexpr std::array<std::string_view, field_paint> plain_paints{"#9aa3ab", "#7d9cbb", picture_rest, picture_highlight,
                                                                  picture_second};
 
 /// The colour of every paint of a picture.

@@ -65,7 +65,8 @@ void draw_swatches(Svg& svg, const PicturePage& page, const PictureHighlight& hi
   double right = page.right;
   for (const auto& [name, colour] :
        {std::pair<std::string_view, std::string_view>{highlight.name, picture_highlight},
-        std::pair<std::string_view, std::string_view>{highlight.second_name, picture_second}}) {
+        std::pair<std::string_view, std::string_view>{highlight.second_name, picture_second},
+        std::pair<std::string_view, std::string_view>{highlight.rest_name, picture_rest}}) {
     if (name.empty()) continue;
     svg.add(R"(<rect x="{:.1f}" y="{:.1f}" width="{}" height="{}" fill="{}" stroke="{}" stroke-width="0.8"/>)",
             right - side, y, side, side, colour, picture_ink);

@@ -16,6 +16,7 @@ constexpr std::string_view picture_ink = "#1d2733";
 constexpr std::string_view picture_grey = "#5b6672";
 constexpr std::string_view picture_highlight = "#f9e7b0";
 constexpr std::string_view picture_second = "#c98a4b";
+constexpr std::string_view picture_rest = "#3f5a78";  ///< of bodies of which something stands out
 constexpr std::string_view picture_accent = "#c2371c";
 constexpr std::string_view picture_force = "#6f2da8";
 constexpr double picture_font_size = 14;
