@@ -66,7 +66,9 @@ TEST_CASE("a rounded number is off by half a step at most, whatever the range") 
   std::mt19937_64 random(2);
   std::uniform_real_distribution<double> unit(0, 1);
   for (const int bits : {1, 7, 8, 10, 12, 16, 24, 32}) {
-    for (const auto& [low, high] : {std::pair{0.0, 1.0}, {-3e8, 2e8}, {-1e-30, 1e-30}, {5.0, 5.5}}) {
+    for (const auto& [from, to] : {std::pair{0.0, 1.0}, {-3e8, 2e8}, {-1e-30, 1e-30}, {5.0, 5.5}}) {
+      const double low = from;  // clang 14 captures no structured bindings
+      const double high = to;
       std::vector<double> values(600);
       for (double& v : values) v = low + (high - low) * unit(random);
       const PackedArray array = pack_rounded(values, 60, bits);

@@ -11,13 +11,14 @@
 namespace udar {
 namespace {
 
-constexpr double width = 1000;
+constexpr double page_width = 1000;
 constexpr double margin = 28;
 constexpr double largest_plot_height = 640;
 constexpr double footer_height = 66;
 
 PicturePage lay_out(const Picture& picture) {
-  PicturePage page{.view = picture.view ? *picture.view : view_of(picture), .left = margin, .right = width - margin};
+  PicturePage page{
+      .view = picture.view ? *picture.view : view_of(picture), .left = margin, .right = page_width - margin};
   const double plot_width = page.right - page.left;
   const Vec2 size = page.view.size();
   page.scale = std::min(plot_width / size.x, largest_plot_height / size.y);
@@ -139,7 +140,7 @@ std::string to_svg(const Picture& picture) {
   draw_marker_labels(svg, page, picture);
   draw_obstacle_names(svg, page, picture);
   draw_legend(svg, page, picture, page.plot().high.y);
-  return picture_head(width, page.plot().high.y + footer_height) + svg.body + "</svg>\n";
+  return picture_head(page_width, page.plot().high.y + footer_height) + svg.body + "</svg>\n";
 }
 
 }  // namespace udar
