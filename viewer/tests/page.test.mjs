@@ -21,6 +21,10 @@ before(async () => {
 });
 after(() => browser?.close());
 
+/** The stage at whole pixels and of one size, whatever stands around it: words of the header have other widths in other
+ *  runs, and a picture between two pixels is another picture. */
+const stage_alone = "#stage { position: fixed; left: 0; top: 0; width: 640px; height: 400px; max-height: none; z-index: 9; }";
+
 const meta = () => page.evaluate(() => JSON.parse(document.getElementById("run").textContent));
 
 /** The row of a history at the time of a frame. */
@@ -177,9 +181,10 @@ test("the address brings back frame, field and view", async () => {
 
 test("three frames look as they did", async () => {
   const view = await open_report(browser, join(medium, "report.html"), {
-    hash: "#frame=10&field=flows_now&at=0,0.03,0.5&show=mesh,outline,forces", width: 1100, height: 800,
+    hash: "#frame=10&field=flows_now&at=0,0.03,0.5&show=mesh,outline,forces", width: 1187, height: 833,
   });
-  await view.addStyleTag({ content: "#stage span { display: none }" });
+  await view.addStyleTag({ content: `${stage_alone} #stage span { display: none }` });
+  await view.waitForTimeout(500);
   for (const [frame, field] of [[10, "flows_now"], [50, "principal_1"], [100, "plastic_strain"]]) {
     await view.selectOption("#field", field);
     await scrub(view, frame);
