@@ -17,6 +17,8 @@ import tempfile
 import time
 import unittest
 
+from program import run_program
+
 PROGRAM = ""
 SHORT_BEAM = pathlib.Path()
 VIEWER = False  # whether the program was built with the viewer
@@ -60,13 +62,7 @@ class Program(unittest.TestCase):
         (self.folder / name).write_text(text, encoding="utf-8")
 
     def udar(self, *words, code=0, **options):
-        """Runs the program; returns standard output and standard error."""
-        done = subprocess.run([PROGRAM, *map(str, words)], cwd=self.folder, capture_output=True, timeout=60, check=False,
-                              **options)
-        out, err = done.stdout.decode(), done.stderr.decode()
-        self.assertEqual(done.returncode, code, out + err)
-        self.assertNotIn("internal error", err)
-        return out, err
+        return run_program(self, PROGRAM, words, code, **options)
 
     def summary(self, run):
         return json.loads((self.folder / run / "summary.json").read_text())
@@ -93,9 +89,9 @@ class CommandLine(Program):
 
     def test_wrong_commands(self):
         for words, message, cure in [
-            ([], "a command is needed: run, check, report", "udar --help"),
+            ([], "a command is needed: run, check, report, plot, picture, movie or keys", "udar --help"),
             (["rnu", "block.toml"], "`rnu` is no command", "did you mean `run`?"),
-            (["frobnicate"], "`frobnicate` is no command", "write run, check, report"),
+            (["frobnicate"], "`frobnicate` is no command", "write run, check, report, plot, picture, movie or keys"),
             (["run"], "a case file is needed", "`udar run --help`"),
             (["report"], "the folder of a run is needed", "`udar report --help`"),
             (["report", "runs", "--frames", "1"], "--frames", "`udar report --help`"),

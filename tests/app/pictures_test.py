@@ -18,6 +18,8 @@ import unittest
 import xml.etree.ElementTree as ElementTree
 import zlib
 
+from program import run_program
+
 PROGRAM = ""
 HAS_CONVERTER = shutil.which("rsvg-convert") is not None
 HAS_ENCODER = shutil.which("ffmpeg") is not None
@@ -101,12 +103,7 @@ class Pictures(unittest.TestCase):
             shutil.rmtree(path) if path.is_dir() else path.unlink()
 
     def udar(self, *words, code=0, **options):
-        done = subprocess.run([PROGRAM, *map(str, words)], cwd=self.folder, capture_output=True, timeout=60, check=False,
-                              **options)
-        out, err = done.stdout.decode(), done.stderr.decode()
-        self.assertEqual(done.returncode, code, out + err)
-        self.assertNotIn("internal error", err)
-        return out, err
+        return run_program(self, PROGRAM, words, code, **options)
 
     def svg(self, name):
         """The texts of a well-formed drawing."""

@@ -1,11 +1,16 @@
 #include "udar/parallel/for_each.hpp"
 
 #include <doctest/doctest.h>
+#include <pthread.h>
 
+#include <atomic>
 #include <chrono>
+#include <csignal>
+#include <ctime>
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "udar/base/error.hpp"
@@ -86,17 +91,42 @@ TEST_CASE("threads that fell asleep wake up") {
   }
 }
 
+namespace {
+
+std::atomic<int> held = 0;
+std::atomic<bool> let_go = false;
+
+/// Holds the thread that gets the signal, as a system does that has put it aside.
+void hold(int) {
+  held.fetch_add(1);
+  const timespec moment{0, 1000000};
+  while (!let_go.load()) nanosleep(&moment, nullptr);
+}
+
+}  // namespace
+
 TEST_CASE("nobody waits for a thread that does not come") {
-  // It takes microseconds to wake up, a block that does nothing takes none. Now and then the others come in time.
-  Pool pool(4);
-  int alone = 0;
-  for (int round = 0; round < 20; ++round) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    std::vector<std::thread::id> who(4);
-    pool.for_each_block(4, [&](std::size_t block) { who[block] = std::this_thread::get_id(); });
-    alone += who == std::vector<std::thread::id>(4, std::this_thread::get_id()) ? 1 : 0;
+  constexpr std::size_t threads = 4;
+  Pool pool(threads);
+  std::vector<pthread_t> who(threads);
+  std::atomic<std::size_t> come = 0;
+  pool.for_each_block(threads, [&](std::size_t block) {
+    who[block] = pthread_self();
+    come.fetch_add(1);
+    while (come.load() < threads) std::this_thread::yield();
+  });
+
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));  // they sleep, and none holds the lock of the pool
+  std::signal(SIGUSR1, hold);
+  for (const pthread_t thread : who) {
+    if (pthread_equal(thread, pthread_self()) == 0) REQUIRE(pthread_kill(thread, SIGUSR1) == 0);
   }
-  CHECK(alone > 0);
+  while (held.load() < static_cast<int>(threads) - 1) std::this_thread::yield();
+
+  std::vector<std::thread::id> did(threads);
+  pool.for_each_block(threads, [&](std::size_t block) { did[block] = std::this_thread::get_id(); });
+  let_go.store(true);
+  CHECK(did == std::vector<std::thread::id>(threads, std::this_thread::get_id()));
 }
 
 TEST_CASE("an exception comes out on the caller and the pool lives on") {

@@ -1,5 +1,5 @@
 // The part of the address behind #: frame, field and view, so that a link brings back what was seen.
-import type { Shown, Store } from "./store.ts";
+import { switches, type Shown, type Store } from "./store.ts";
 
 const short = (value: number): string => String(Number(value.toPrecision(6)));
 
@@ -12,7 +12,7 @@ export function to_address(shown: Readonly<Shown>): string {
   if (shown.map) words.set("map", shown.map);
   if (shown.follow) words.set("follow", shown.follow);
   if (shown.range !== "run") words.set("range", shown.range === "own" ? `${short(shown.low)},${short(shown.high)}` : shown.range);
-  const on = (["smooth", "mesh", "outline", "ghost", "forces"] as const).filter((key) => shown[key]);
+  const on = switches.filter((key) => shown[key]);
   words.set("show", on.join(","));
   if (shown.picked) words.set("picked", `${shown.picked.on},${shown.picked.index}`);
   return words.toString();
@@ -40,11 +40,11 @@ export function from_address(text: string, frames: number, nodes: number, elemen
   if (low < high) Object.assign(shown, { range: "own", low, high });
   const show = words.get("show");
   if (show !== null) {
-    for (const key of ["smooth", "mesh", "outline", "ghost", "forces"] as const) shown[key] = show.split(",").includes(key);
+    for (const key of switches) shown[key] = show.split(",").includes(key);
   }
   const [on, index] = (words.get("picked") ?? "").split(",");
   const most = on === "nodes" ? nodes : on === "elements" ? elements : 0;
-  if (Number(index) >= 0 && Number(index) < most) shown.picked = { on: on as "nodes" | "elements", index: Number(index) };
+  if (Number.isInteger(Number(index)) && Number(index) >= 0 && Number(index) < most) shown.picked = { on: on as "nodes" | "elements", index: Number(index) };
   return shown;
 }
 
@@ -56,8 +56,7 @@ export function follow_address(store: Store<Shown>): void {
     history.replaceState(null, "", `#${to_address(store.now)}`);
   };
   const keys = [
-    "frame", "field", "map", "range", "low", "high", "smooth", "mesh", "outline", "ghost", "forces", "follow", "centre",
-    "width", "picked",
+    "frame", "field", "map", "range", "low", "high", "follow", "centre", "width", "picked", ...switches,
   ] as const;
   store.on(keys, () => {
     waiting ||= window.setTimeout(write, 300);

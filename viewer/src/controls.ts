@@ -4,7 +4,7 @@ import type { Field } from "./fields.ts";
 import type { Frames } from "./frames.ts";
 import { choice, h, toggle } from "./html.ts";
 import type { Player } from "./player.ts";
-import type { Shown, Store } from "./store.ts";
+import type { Shown, Store, Switch } from "./store.ts";
 import { choices, digits, type Units } from "./units.ts";
 import type { View } from "./view.ts";
 
@@ -101,7 +101,7 @@ export function look_bar(
   };
   store.on(["field", "range", "low", "high", "units", "map"], update);
   update();
-  const flag = (key: "smooth" | "mesh" | "outline" | "ghost" | "forces", words: string, title: string) => {
+  const flag = (key: Switch, words: string, title: string) => {
     const made = toggle(words, title, store.now[key], (on) => store.set({ [key]: on }));
     const box = made.querySelector("input")!;
     box.id = `show-${key}`;
@@ -141,7 +141,7 @@ export function view_bar(
 export function listen_to_keys(
   frames: Frames, store: Store<Shown>, player: Player, view: View, fit: () => void, picture: () => void,
 ): void {
-  const flip = (key: "smooth" | "mesh" | "outline" | "ghost" | "forces") => () => store.set({ [key]: !store.now[key] });
+  const flip = (key: Switch) => () => store.set({ [key]: !store.now[key] });
   const step = (by: number) => () => player.go(store.now.frame + by);
   const keys: Record<string, () => void> = {
     " ": () => player.play(), ArrowLeft: step(-1), ArrowRight: step(1), PageUp: step(-10), PageDown: step(10),

@@ -2,7 +2,7 @@
 import { follow_address, from_address } from "./address.ts";
 import { Blocks } from "./blocks.ts";
 import { listen_to_keys, look_bar, player_bar, view_bar } from "./controls.ts";
-import { fields_of } from "./fields.ts";
+import { fields_of, type Field } from "./fields.ts";
 import { Frames } from "./frames.ts";
 import { by_id, choice, h } from "./html.ts";
 import { pick_at, Picking } from "./picking.ts";
@@ -81,22 +81,62 @@ function failed(words: string): void {
   place.hidden = false;
 }
 
+/** What the address asks for, of what this page has. */
+function asked_for(run: Run, fields: Field[]): Partial<Shown> {
+  const asked = from_address(location.hash.slice(1), run.times.length, run.nodes, run.elements);
+  if (asked.field !== "none" && !fields.some((f) => f.id === asked.field)) delete asked.field;
+  return asked;
+}
+
+/** The first field that is not 0 in all frames. */
+function first_field(frames: Frames, fields: Field[]): string {
+  const is_something = (name: string): boolean =>
+    frames.quantity(name)?.chunks.some(({ low = 0, step = 0 }) => low !== 0 || step !== 0) ?? false;
+  const found = ["plastic_strain", "max_shear", "principal_1", "speed"]
+    .map((id) => fields.find((f) => f.id === id))
+    .find((f) => f?.needs.some(is_something));
+  return (found ?? fields[0])?.id ?? "";
+}
+
+function nearest_frame(times: number[], time: number): number {
+  const after = times.findIndex((t) => t >= time);
+  if (after <= 0) return after === 0 ? 0 : times.length - 1;
+  return time - times[after - 1] < times[after] - time ? after - 1 : after;
+}
+
+/** What the button for a film does: it begins one, and pressed again ends it. */
+function film_button(
+  stage: Stage, store: Store<Shown>, frames: number, name: string, bring: () => Promise<void>,
+): () => Promise<void> {
+  let filming = false;
+  let stop = false;
+  return async () => {
+    if (filming) {
+      stop = true;
+      return;
+    }
+    const button = by_id("save-film");
+    [filming, stop] = [true, false];
+    try {
+      const tell = (done: number): void => void (button.textContent = `stop (${done} of ${frames})`);
+      await save_film(stage, store, frames, name, bring, tell, () => stop);
+    } catch (error) {
+      failed(error instanceof Error ? error.message : String(error));
+    }
+    filming = false;
+    button.textContent = "video";
+  };
+}
+
 async function open_page(): Promise<void> {
   const run = read_run(document);
   document.title = `${run.case_name} – Udar`;
   const units = new Units();
   units.follow(run.case_text);
   const frames = new Frames(run, new Blocks(room));
-  const asked = from_address(location.hash.slice(1), frames.count, run.nodes, run.elements);
   const fields = fields_of(frames);
-  if (!fields.some((f) => f.id === asked.field)) delete asked.field;
-  // The first one that is not 0 in all frames.
-  const is_something = (name: string): boolean =>
-    frames.quantity(name)?.chunks.some(({ low = 0, step = 0 }) => low !== 0 || step !== 0) ?? false;
-  const field = ["plastic_strain", "max_shear", "principal_1", "speed"]
-    .map((id) => fields.find((f) => f.id === id))
-    .find((f) => f?.needs.some(is_something)) ?? fields[0];
-  const store = new Store<Shown>({ ...start, field: field?.id ?? "", ...asked });
+  const asked = asked_for(run, fields);
+  const store = new Store<Shown>({ ...start, field: first_field(frames, fields), ...asked });
 
   by_id("head").append(header(run), theme_choice(store, () => {
     stage.repaint();
@@ -123,13 +163,8 @@ async function open_page(): Promise<void> {
     picking.now();
     document.body.dataset.frame = String(store.now.frame);
   });
-  const time_at = (time: number): number => {
-    const after = run.times.findIndex((t) => t >= time);
-    if (after <= 0) return after === 0 ? 0 : run.times.length - 1;
-    return time - run.times[after - 1] < run.times[after] - time ? after - 1 : after;
-  };
   const player = new Player(frames.count, store, () => is_drawn);
-  const plots = new Plots(run, frames.blocks, store, units, (time) => player.go(time_at(time)));
+  const plots = new Plots(run, frames.blocks, store, units, (time) => player.go(nearest_frame(run.times, time)));
   const picking = new Picking(frames, run, store, stage, plots, units, () => show.field);
   store.on(["low", "high", "map", "units"], paint_bar);
   new ResizeObserver(paint_bar).observe(bar);
@@ -162,24 +197,7 @@ async function open_page(): Promise<void> {
     };
     const name = run.case_name.replace(/[^\w.-]+/g, "_");
     const picture = (): void => void save_picture(stage, `${name}-${store.now.frame}`);
-    let filming = false;
-    let stop = false;
-    const film = async (): Promise<void> => {
-      if (filming) {
-        stop = true;
-        return;
-      }
-      const button = by_id("save-film");
-      [filming, stop] = [true, false];
-      try {
-        await save_film(stage, store, frames.count, name, () => show.refresh(),
-          (done) => (button.textContent = `stop (${done} of ${frames.count})`), () => stop);
-      } catch (error) {
-        failed(error instanceof Error ? error.message : String(error));
-      }
-      filming = false;
-      button.textContent = "video";
-    };
+    const film = film_button(stage, store, frames.count, name, () => show.refresh());
     by_id("controls").append(
       player_bar(frames, store, player, units),
       look_bar(frames, fields, store, units),
@@ -200,7 +218,7 @@ async function open_page(): Promise<void> {
     // Whoever opens a run wants to see it move: once, unless the address or the system asks for peace.
     const in_peace = location.hash !== "" || matchMedia("(prefers-reduced-motion: reduce)").matches;
     if (!in_peace) player.play();
-    addEventListener("hashchange", () => store.set(from_address(location.hash.slice(1), frames.count, run.nodes, run.elements)));
+    addEventListener("hashchange", () => store.set(asked_for(run, fields)));
   }
   document.body.dataset.ready = "true";
   setTimeout(() => plots.make_some(60), 1500);

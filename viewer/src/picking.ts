@@ -21,6 +21,8 @@ export function pick_at(frames: Frames, drawn: Drawn, [x, y]: Point, on: Picked[
   return { on, index: nodes.reduce((best, n) => (distance(n) < distance(best) ? n : best)) };
 }
 
+const mean = (values: number[]): number => values.reduce((sum, v) => sum + v, 0) / values.length;
+
 export class Picking {
   readonly element = h("section", { id: "picked", "aria-label": "Picked node or element" });
   readonly #now = h("dl", { class: "rows", id: "picked-now" });
@@ -28,6 +30,7 @@ export class Picking {
   readonly #what = h("p", { id: "picked-name", role: "status" });
   readonly #number = h("input", { type: "number", min: "0", id: "pick-number", "aria-label": "Number of the node or element" });
   on: Picked["on"] = "nodes";
+  #neighbours: number[] = []; // of what is picked
 
   constructor(
     private readonly frames: Frames,
@@ -66,7 +69,11 @@ export class Picking {
         h("button", { type: "button", onclick: () => store.set({ picked: null }) }, "none")),
       this.#what, this.#now, this.#plot,
     );
-    store.on(["picked"], () => void this.#show());
+    store.on(["picked"], () => {
+      const { picked } = store.now;
+      this.#neighbours = picked ? this.#find_neighbours(picked) : [];
+      void this.#show();
+    });
     store.on(["field", "units"], () => void this.#show());
     this.#name();
   }
@@ -101,31 +108,30 @@ export class Picking {
     if (!picked || !drawn) return;
     const say = (name: string, value: string, key: string) =>
       this.#now.append(h("dt", {}, name), h("dd", { "data-value": key }, value));
-    const [x, y] = [0, 1].map((k) => drawn.places.filter((_, i) => i % 2 === k));
-    const [ox, oy] = this.frames.origin;
-    const of = (places: Float32Array): number =>
-      picked.on === "nodes" ? places[picked.index] : this.#mean(picked, places);
-    say("x", with_unit(of(x) + ox, "m", this.units, 5), "x");
-    say("y", with_unit(of(y) + oy, "m", this.units, 5), "y");
+    const nodes = picked.on === "nodes" ? [picked.index] : this.#neighbours;
+    for (const [k, axis] of ["x", "y"].entries()) {
+      const place = mean(nodes.map((node) => drawn.places[2 * node + k])) + this.frames.origin[k];
+      say(axis, with_unit(place, "m", this.units, 5), axis);
+    }
     if (!drawn.field || !drawn.values) return;
-    const { field } = drawn;
+    const { field, values } = drawn;
     if (field.on === picked.on) {
-      const value = drawn.values[picked.index];
+      const value = values[picked.index];
       say(field.label, field.flag ? flow_words(value) : with_unit(value, field.unit, this.units), field.id);
     } else if (!field.flag) {
       const where = picked.on === "nodes" ? "mean of the elements round it" : "mean of its nodes";
-      say(`${field.label}, ${where}`, with_unit(this.#mean(picked, drawn.values), field.unit, this.units), field.id);
+      say(`${field.label}, ${where}`, with_unit(mean(this.#neighbours.map((k) => values[k])), field.unit, this.units), field.id);
     }
   }
 
-  /** Of an element's nodes, or of the elements round a node. */
-  #mean({ on, index }: Picked, values: Float32Array): number {
+  /** An element's nodes, or the elements round a node. */
+  #find_neighbours({ on, index }: Picked): number[] {
     const { corners } = this.frames;
     const elements = corners.length / 3;
+    if (on === "elements") return [0, 1, 2].map((c) => corners[c * elements + index]);
     const found: number[] = [];
-    if (on === "elements") for (let c = 0; c < 3; ++c) found.push(values[corners[c * elements + index]]);
-    else corners.forEach((node, k) => node === index && found.push(values[k % elements]));
-    return found.reduce((sum, v) => sum + v, 0) / found.length;
+    corners.forEach((node, k) => node === index && found.push(k % elements));
+    return found;
   }
 
   async #show(): Promise<void> {

@@ -23,7 +23,11 @@ export interface Picked {
   index: number;
 }
 
-export interface Shown {
+/** What is drawn with the bodies or not. */
+export const switches = ["smooth", "mesh", "outline", "ghost", "forces"] as const;
+export type Switch = (typeof switches)[number];
+
+export interface Shown extends Record<Switch, boolean> {
   frame: number;
   playing: boolean;
   loop: boolean;
@@ -33,11 +37,6 @@ export interface Shown {
   range: "run" | "frame" | "own";
   low: number; // SI, of the range in use
   high: number;
-  smooth: boolean;
-  mesh: boolean;
-  outline: boolean;
-  ghost: boolean;
-  forces: boolean;
   follow: string; // a body, or ""
   centre: readonly [number, number]; // m, of the view
   width: number; // m, of the view

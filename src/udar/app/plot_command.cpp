@@ -6,7 +6,7 @@
 #include "udar/app/terminal.hpp"
 #include "udar/report/drawing.hpp"
 #include "udar/report/history_plot.hpp"
-#include "udar/results/run_folder.hpp"
+#include "udar/report/run_files.hpp"
 
 namespace udar {
 namespace {
@@ -28,11 +28,6 @@ struct Arguments {
   std::string output;
   int width = 1600;
 };
-
-bool is_run_folder(const std::string& word) {
-  std::error_code error;
-  return std::filesystem::is_regular_file(std::filesystem::path(word) / RunFolder::marker, error);
-}
 
 ExitCode draw(const Arguments& arguments) {
   check_drawing(arguments.output);

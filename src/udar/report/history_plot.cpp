@@ -21,13 +21,8 @@ namespace fs = std::filesystem;
 /// The histories of one run, read when they are asked for.
 class RunHistories {
  public:
-  explicit RunHistories(const fs::path& folder) : folder_(folder) {
-    check_run_folder(folder);
-    std::error_code error;
-    for (fs::directory_iterator it(folder / RunFolder::histories, error), end; !error && it != end;
-         it.increment(error)) {
-      if (it->path().extension() == ".csv") names_.push_back(it->path().stem().string());
-    }
+  explicit RunHistories(const fs::path& folder) : files_(find_run_files(folder)) {
+    for (const fs::path& file : files_.histories) names_.push_back(file.stem().string());
     std::sort(names_.begin(), names_.end());
     if (names_.empty()) {
       throw UserError(ExitCode::usage, fmt::format("the run `{}` has no histories", folder.string()),
@@ -35,7 +30,7 @@ class RunHistories {
     }
   }
 
-  [[nodiscard]] const fs::path& folder() const { return folder_; }
+  [[nodiscard]] const RunFiles& files() const { return files_; }
   [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
   [[nodiscard]] bool has(const std::string& name) const {
     return std::binary_search(names_.begin(), names_.end(), name);
@@ -43,11 +38,11 @@ class RunHistories {
   const History& read(const std::string& name) {
     const auto known = read_.find(name);
     if (known != read_.end()) return known->second;
-    return read_.emplace(name, read_csv(folder_ / RunFolder::histories / (name + ".csv"))).first->second;
+    return read_.emplace(name, read_csv(files_.folder / RunFolder::histories / (name + ".csv"))).first->second;
   }
 
  private:
-  fs::path folder_;
+  RunFiles files_;
   std::vector<std::string> names_;
   std::map<std::string, History> read_;
 };
@@ -106,7 +101,7 @@ std::vector<Quantity> find_quantities(RunHistories& run, const std::string& word
     std::vector<std::string> names = run.names();
     if (names.size() > 12) names.resize(12);
     throw UserError(
-        ExitCode::usage, fmt::format("the run `{}` has no history `{}`", run.folder().string(), head),
+        ExitCode::usage, fmt::format("the run `{}` has no history `{}`", run.files().folder.string(), head),
         near.empty() ? "write " + one_of(names) : fmt::format("did you mean `{}{}`?", near, word.substr(head.size())));
   }
   const std::string column = word.size() > history.size() ? word.substr(history.size() + 1) : "";
@@ -277,7 +272,7 @@ Plot history_plot(const PlotRequest& request) {
   }
   const std::vector<Group> groups = request.names.empty() ? usual_sheet(runs.front()) : grouped(quantities);
   const std::vector<std::string> labels = run_labels(request.runs);
-  Plot plot{.title = request.title.empty() ? case_name_of(find_run_files(request.runs.front())) : request.title};
+  Plot plot{.title = request.title.empty() ? case_name_of(runs.front().files()) : request.title};
   for (const Group& group : groups) plot.panels.push_back(panel_of(runs, labels, group, request));
   set_times(plot, request);
   return plot;

@@ -24,11 +24,6 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, error);
 }
 
-bool is_run_folder(const fs::path& folder) {
-  constexpr std::array own{RunFolder::marker, RunFolder::summary, RunFolder::fields_index, RunFolder::resolved_case};
-  return std::any_of(own.begin(), own.end(), [&](std::string_view name) { return is_file(folder / name); });
-}
-
 /// Files that a run may leave, read one by one: what cannot be read is told and passed over.
 class Reader {
  public:
@@ -110,6 +105,11 @@ class Reader {
 };
 
 }  // namespace
+
+bool is_run_folder(const fs::path& folder) {
+  constexpr std::array own{RunFolder::marker, RunFolder::summary, RunFolder::fields_index, RunFolder::resolved_case};
+  return std::any_of(own.begin(), own.end(), [&](std::string_view name) { return is_file(folder / name); });
+}
 
 void check_run_folder(const fs::path& folder) {
   if (is_run_folder(folder)) return;

@@ -30,6 +30,8 @@ struct RunFiles {
   std::vector<std::string> troubles;             ///< what is there but cannot be read, or is missing; a sentence each
 };
 
+/// Is it a folder that `udar run` made, as far as it tells?
+bool is_run_folder(const std::filesystem::path& folder);
 /// Refuses what is no run folder. Throws UserError (usage).
 void check_run_folder(const std::filesystem::path& folder);
 

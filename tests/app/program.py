@@ -1,0 +1,14 @@
+"""What the tests of the program share."""
+
+import subprocess
+
+
+def run_program(test, program, words, code, **options):
+    """Runs the program in the folder of a test, which asks for this exit code and no internal error; returns standard
+    output and standard error."""
+    done = subprocess.run([program, *map(str, words)], cwd=test.folder, capture_output=True, timeout=60, check=False,
+                          **options)
+    out, err = done.stdout.decode(), done.stderr.decode()
+    test.assertEqual(done.returncode, code, out + err)
+    test.assertNotIn("internal error", err)
+    return out, err
