@@ -6,7 +6,7 @@
 #include "udar/app/terminal.hpp"
 #include "udar/report/drawing.hpp"
 #include "udar/report/history_plot.hpp"
-#include "udar/report/run_files.hpp"
+#include "udar/results/run_files.hpp"
 
 namespace udar {
 namespace {

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "udar/report/run_frames.hpp"
+#include "udar/results/run_frames.hpp"
 
 namespace udar {
 

@@ -183,19 +183,4 @@ void add_frame(const FrameFiles& frame, const ReportMesh& mesh, const Wanted& wa
   }
 }
 
-std::vector<std::vector<Vec2>> read_outlines(const FrameFiles& frame) {
-  std::vector<std::vector<Vec2>> outlines;
-  if (frame.obstacles.empty()) return outlines;
-  const VtuGrid grid = read_vtu(frame.obstacles);
-  std::int32_t begin = 0;
-  for (const std::int32_t end : grid.ends) {
-    std::vector<Vec2>& outline = outlines.emplace_back();
-    for (; begin < end; ++begin) {
-      outline.push_back(grid.points[static_cast<std::size_t>(grid.corners[static_cast<std::size_t>(begin)])]);
-    }
-  }
-  std::erase_if(outlines, [](const auto& outline) { return outline.size() < 3; });
-  return outlines;
-}
-
 }  // namespace udar

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "udar/report/quantities.hpp"
-#include "udar/report/run_files.hpp"
+#include "udar/results/run_files.hpp"
 #include "udar/results/vtu.hpp"
 
 namespace udar {
@@ -59,8 +59,5 @@ struct Wanted {
 
 /// Reads one frame and puts it behind those already in `chunk`. Throws OutputError, and then leaves half of it there.
 void add_frame(const FrameFiles& frame, const ReportMesh& mesh, const Wanted& wanted, Chunk& chunk);
-
-/// Closed outlines of the obstacles in a frame, m.
-std::vector<std::vector<Vec2>> read_outlines(const FrameFiles& frame);
 
 }  // namespace udar

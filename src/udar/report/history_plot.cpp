@@ -9,8 +9,8 @@
 
 #include "udar/base/error.hpp"
 #include "udar/base/text.hpp"
-#include "udar/report/run_files.hpp"
 #include "udar/results/histories.hpp"
+#include "udar/results/run_files.hpp"
 #include "udar/results/run_folder.hpp"
 
 namespace udar {

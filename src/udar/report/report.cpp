@@ -10,6 +10,7 @@
 #include "udar/results/file.hpp"
 #include "udar/results/histories.hpp"
 #include "udar/results/run_folder.hpp"
+#include "udar/results/run_frames.hpp"
 
 namespace udar {
 namespace {

@@ -1,4 +1,4 @@
-#include "udar/report/run_frames.hpp"
+#include "udar/results/run_frames.hpp"
 
 #include <fmt/core.h>
 
@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "udar/base/error.hpp"
-#include "udar/report/frames.hpp"
 
 namespace udar {
 namespace {
@@ -29,6 +28,21 @@ std::vector<std::array<std::int32_t, 3>> triangles_of(const VtuGrid& grid, const
 }
 
 }  // namespace
+
+std::vector<std::vector<Vec2>> read_outlines(const FrameFiles& frame) {
+  std::vector<std::vector<Vec2>> outlines;
+  if (frame.obstacles.empty()) return outlines;
+  const VtuGrid grid = read_vtu(frame.obstacles);
+  std::int32_t begin = 0;
+  for (const std::int32_t end : grid.ends) {
+    std::vector<Vec2>& outline = outlines.emplace_back();
+    for (; begin < end; ++begin) {
+      outline.push_back(grid.points[static_cast<std::size_t>(grid.corners[static_cast<std::size_t>(begin)])]);
+    }
+  }
+  std::erase_if(outlines, [](const auto& outline) { return outline.size() < 3; });
+  return outlines;
+}
 
 RunFrames::RunFrames(const fs::path& folder) : files_(find_run_files(folder)) {
   if (!files_.frames.empty()) return;

@@ -1,4 +1,4 @@
-#include "udar/report/run_files.hpp"
+#include "udar/results/run_files.hpp"
 
 #include <fmt/format.h>
 

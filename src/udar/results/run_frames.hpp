@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "udar/report/run_files.hpp"
+#include "udar/results/run_files.hpp"
 #include "udar/results/vtu.hpp"
 
 namespace udar {
@@ -19,6 +19,9 @@ struct Frame {
   std::vector<std::vector<Vec2>> obstacles;            ///< closed outlines, m
   std::vector<std::uint8_t> rigid;                     ///< for each body 1 where it is; empty: none is, or unknown
 };
+
+/// Closed outlines of the obstacles in a frame, m. Throws OutputError.
+std::vector<std::vector<Vec2>> read_outlines(const FrameFiles& frame);
 
 /// The frames of a run, in the order of time.
 class RunFrames {
