@@ -2,23 +2,15 @@
 
 #include <fmt/core.h>
 
-#include <concepts>
 #include <nlohmann/json.hpp>
 
 #include "udar/base/error.hpp"
 #include "udar/results/file.hpp"
+#include "udar/results/json_members.hpp"
 
 namespace udar {
-namespace {
 
-using Json = nlohmann::ordered_json;
-
-constexpr int schema = 1;
-
-// One list of names for each struct serves writing and reading: `visit(name, member)` for every member.
-
-template <class T, class Plain>
-concept Is = std::same_as<std::remove_const_t<T>, Plain>;
+constexpr int summary_schema = 1;
 
 template <Is<HistorySummary> T, class Visit>
 void for_each_member(T& s, Visit visit) {
@@ -167,80 +159,9 @@ void for_each_member(T& s, Visit visit) {
   visit("contacts", s.contacts);
 }
 
-Json written(double value) {
-  return value;  // NaN and infinities become null in the text
-}
-Json written(const Vec2& value) { return Json::array({value.x, value.y}); }
-template <class T>
-requires std::integral<T> || std::same_as<T, std::string> Json written(const T& value) { return value; }
-template <class T>
-Json written(const std::vector<T>& values);
-template <class T>
-Json written(const std::map<std::string, T>& values);
-template <class T>
-requires requires(T& s) {
-  for_each_member(s, [](const char*, auto&) {});
-}
-Json written(const T& value) {
-  Json out = Json::object();
-  for_each_member(value, [&](const char* name, const auto& member) { out[name] = written(member); });
-  return out;
-}
-template <class T>
-Json written(const std::vector<T>& values) {
-  Json out = Json::array();
-  for (const T& value : values) out.push_back(written(value));
-  return out;
-}
-template <class T>
-Json written(const std::map<std::string, T>& values) {
-  Json out = Json::object();
-  for (const auto& [name, value] : values) out[name] = written(value);
-  return out;
-}
-
-void check(bool right) {
-  if (!right) throw OutputError("not a summary of a run: a list or a table is missing");
-}
-
-void read(const Json& json, double& value) { value = json.is_null() ? no_number : json.get<double>(); }
-void read(const Json& json, Vec2& value) {
-  read(json.at(0), value.x);
-  read(json.at(1), value.y);
-}
-template <class T>
-requires std::integral<T> || std::same_as<T, std::string>
-void read(const Json& json, T& value) { value = json.get<T>(); }
-template <class T>
-void read(const Json& json, std::vector<T>& values);
-template <class T>
-void read(const Json& json, std::map<std::string, T>& values);
-template <class T>
-requires requires(T& s) {
-  for_each_member(s, [](const char*, auto&) {});
-}
-void read(const Json& json, T& value) {
-  check(json.is_object());
-  for_each_member(value, [&](const char* name, auto& member) {
-    if (json.contains(name)) read(json.at(name), member);
-  });
-}
-template <class T>
-void read(const Json& json, std::vector<T>& values) {
-  check(json.is_array());
-  for (const Json& item : json) read(item, values.emplace_back());
-}
-template <class T>
-void read(const Json& json, std::map<std::string, T>& values) {
-  check(json.is_object());
-  for (const auto& [name, item] : json.items()) read(item, values[name]);
-}
-
-}  // namespace
-
 std::string to_json(const Summary& summary) {
-  Json out{{"schema", schema}};
-  out.update(written(summary));
+  Json out{{"schema", summary_schema}};
+  out.update(json_of(summary));
   // Names that are not UTF-8 must not stop the summary of a finished run.
   return out.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
@@ -248,9 +169,10 @@ std::string to_json(const Summary& summary) {
 Summary summary_from_json(std::string_view text) {
   try {
     const Json json = Json::parse(text);
-    if (json.at("schema") != schema) throw OutputError(fmt::format("the summary is not of schema {}", schema));
+    if (json.at("schema") != summary_schema)
+      throw OutputError(fmt::format("the summary is not of schema {}", summary_schema));
     Summary summary;
-    read(json, summary);
+    read_json(json, summary);
     return summary;
   } catch (const Json::exception& error) {
     throw OutputError(fmt::format("not a summary of a run: {}", error.what()));
