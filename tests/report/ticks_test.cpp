@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "udar/report/human_unit.hpp"
+#include "udar/base/human_unit.hpp"
 
 using namespace udar;
 

@@ -208,7 +208,7 @@ ExitCode describe_case(const CheckArguments& check) {
   std::vector<Diagnostic> warnings;
   const Simulation simulation(load_case(arguments.file, arguments.assignments, &warnings));
   const Model& model = simulation.model();
-  Workspace work(model, threads_for(model));
+  Workspace work(model, threads_for(model.element_count));
   State state = start(model, work);
   print_warnings(warnings);
   if (!check.picture.empty()) {

@@ -2,9 +2,11 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "udar/base/error.hpp"
+#include "udar/units/dimension.hpp"
 
 namespace CLI {  // NOLINT(readability-identifier-naming): of the library
 class App;
@@ -29,6 +31,8 @@ Command add_keys(CLI::App& app);
 Command add_plot(CLI::App& app);
 Command add_picture(CLI::App& app);
 Command add_movie(CLI::App& app);
+Command add_converge(CLI::App& app);
+Command add_sweep(CLI::App& app);
 
 /// A case and the changes made to it, as several commands take them.
 struct CaseArguments {
@@ -36,6 +40,10 @@ struct CaseArguments {
   std::vector<std::string> assignments;  ///< of --set
 };
 void add_case_options(CLI::App& command, CaseArguments& arguments);
+
+/// A quantity of an option, SI: "--to", "0.5 ms". Throws UserError (usage).
+double si_of_option(std::string_view option, std::string_view text, Dimension needed);
+double time_of_option(std::string_view option, std::string_view text);
 
 /// --width of a picture, px.
 void add_width_option(CLI::App& command, int& width);

@@ -26,6 +26,7 @@ constexpr const char* footer = R"(Examples:
   udar report runs/short-beam --limit "5 MB"
   udar keys friction
   udar picture runs/short-beam --time "0.5 ms" --field sigma1 --output stress.png
+  udar converge cases/short-beam/short-beam.toml --mesh 3 --ratio 2 --step 3
   udar plot runs/short-beam corner.displacement_y --output corner.svg
 
 Exit codes:
@@ -35,7 +36,8 @@ Exit codes:
                            failure                       with everything saved)";
 
 /// What adds each command, in the order of the help.
-constexpr std::array add_commands{add_run, add_check, add_report, add_plot, add_picture, add_movie, add_keys};
+constexpr std::array add_commands{add_run,  add_check,   add_converge, add_sweep, add_report,
+                                  add_plot, add_picture, add_movie,    add_keys};
 
 std::vector<std::string> names_of(const CLI::App& app) {
   std::vector<std::string> names;

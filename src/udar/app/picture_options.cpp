@@ -15,15 +15,6 @@ namespace {
   throw UserError(ExitCode::usage, message, cure);
 }
 
-/// A quantity of an option, SI.
-double si_of_option(std::string_view option, std::string_view text, Dimension needed) {
-  const auto value = parse_si(text, needed);
-  if (value) return *value;
-  const UnitError& error = value.error();
-  refuse(fmt::format("{} in `{}`: {}", error.what, option, error.reason),
-         error.cure.empty() ? "write it like " + example_of(needed) : error.cure);
-}
-
 Dimension dimension_of(std::string_view si_unit) {
   if (si_unit.empty()) return dimension::number;
   const auto one = parse_quantity(fmt::format("1 {}", si_unit));
@@ -110,10 +101,6 @@ std::vector<std::string> split_list(std::string_view words, char separator) {
     if (end == std::string_view::npos) return parts;
     words.remove_prefix(end + 1);
   }
-}
-
-double time_of_option(std::string_view option, std::string_view text) {
-  return si_of_option(option, text, dimension::time);
 }
 
 std::string fields_text() {

@@ -31,9 +31,6 @@ void add_picture_options(CLI::App& command, PictureArguments& arguments);
 /// The options for the frames of a run. Throws UserError (usage).
 FrameView frame_view(const PictureArguments& arguments, const std::filesystem::path& run);
 
-/// A time of the command line, s. Throws UserError (usage).
-double time_of_option(std::string_view option, std::string_view text);
-
 /// The numbers of `words`, with commas between them.
 std::vector<std::string> split_list(std::string_view words, char separator);
 

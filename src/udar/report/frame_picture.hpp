@@ -4,8 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "udar/base/human_unit.hpp"
 #include "udar/report/field.hpp"
-#include "udar/report/human_unit.hpp"
 #include "udar/results/picture.hpp"
 
 namespace udar {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "udar/report/human_unit.hpp"
+#include "udar/base/human_unit.hpp"
 #include "udar/report/ticks.hpp"
 #include "udar/results/picture_page.hpp"
 #include "udar/results/svg.hpp"

@@ -142,10 +142,10 @@ std::string final_picture(const Model& model, const State& state, const RunOptio
 
 }  // namespace
 
-int threads_for(const Model& model) {
-  constexpr unsigned elements_per_thread = 4000;
-  const unsigned useful = model.element_count / elements_per_thread;
-  return static_cast<int>(std::clamp(useful, 1U, static_cast<unsigned>(available_threads())));
+int threads_for(std::size_t elements) {
+  constexpr std::size_t elements_per_thread = 4000;
+  const std::size_t most = static_cast<std::size_t>(available_threads());
+  return static_cast<int>(std::clamp<std::size_t>(elements / elements_per_thread, 1, most));
 }
 
 std::string version_text() {
@@ -184,7 +184,7 @@ void Simulation::compute(const RunOptions& options, Workspace& work, const std::
 Summary Simulation::run(const RunOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   const std::string started = now_text();
-  Workspace work(model_, options.threads > 0 ? options.threads : threads_for(model_));
+  Workspace work(model_, options.threads > 0 ? options.threads : threads_for(model_.element_count));
   state_ = start(model_, work);
   std::optional<RunFolder> folder;
   if (options.folder) folder = open_folder(case_, model_, state_, options);

@@ -61,7 +61,7 @@ class Simulation {
 };
 
 /// Threads that serve a case of this size: more than one only where each has enough to do.
-int threads_for(const Model& model);
+int threads_for(std::size_t elements);
 
 /// "udar 0.1.0 (g++ 12.2.0)".
 std::string version_text();

@@ -1,4 +1,4 @@
-#include "udar/report/human_unit.hpp"
+#include "udar/base/human_unit.hpp"
 
 #include <fmt/core.h>
 

@@ -1,0 +1,176 @@
+#include "udar/results/summary_numbers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace udar {
+namespace {
+
+constexpr double rounding = 1e-9;  // beside the scale of its kind
+
+class Numbers {
+ public:
+  void add(std::string name, std::string unit, double value, double scale = 0) {
+    if (std::isfinite(value)) found.push_back({std::move(name), std::move(unit), value, scale});
+  }
+  void add(const std::string& name, const std::string& unit, Vec2 value, double scale = 0) {
+    const double length = std::hypot(value.x, value.y);
+    add(name + ".x", unit, value.x, std::max(scale, length));
+    add(name + ".y", unit, value.y, std::max(scale, length));
+  }
+
+  std::vector<SummaryNumber> found;
+};
+
+void add_ledger(Numbers& numbers, const LedgerSummary& l) {
+  const double scale = std::max(std::fabs(l.start), std::fabs(l.total));
+  const std::array<std::pair<const char*, double>, 15> terms{{{"start", l.start},
+                                                              {"kinetic", l.kinetic},
+                                                              {"elastic", l.elastic},
+                                                              {"plastic", l.plastic},
+                                                              {"stored_elastic", l.stored_elastic},
+                                                              {"contact", l.contact},
+                                                              {"ties", l.ties},
+                                                              {"friction", l.friction},
+                                                              {"dropped", l.dropped},
+                                                              {"damping", l.damping},
+                                                              {"gravity", l.gravity},
+                                                              {"loads", l.loads},
+                                                              {"supports", l.supports},
+                                                              {"obstacles", l.obstacles},
+                                                              {"total", l.total}}};
+  for (const auto& [name, value] : terms) numbers.add(std::string("ledger.") + name, "J", value, scale);
+}
+
+void add_momentum(Numbers& numbers, const MomentumSummary& m) {
+  double scale = 0;
+  for (const Vec2& v : {m.start, m.end, m.obstacles, m.gravity, m.loads, m.supports}) {
+    scale = std::max(scale, std::hypot(v.x, v.y));
+  }
+  numbers.add("momentum.start", "N s", m.start, scale);
+  numbers.add("momentum.end", "N s", m.end, scale);
+  numbers.add("momentum.obstacles", "N s", m.obstacles, scale);
+  numbers.add("momentum.gravity", "N s", m.gravity, scale);
+  numbers.add("momentum.loads", "N s", m.loads, scale);
+  numbers.add("momentum.supports", "N s", m.supports, scale);
+  numbers.add("momentum.damping", "N s", m.damping, scale);
+}
+
+void add_history(Numbers& numbers, const std::string& observer, const std::map<std::string, HistorySummary>& columns,
+                 double length) {
+  std::map<std::string, double> scales;  // by unit: the components of a vector have one
+  for (const auto& [name, h] : columns) {
+    double& scale = scales[unit_of_quantity(observer, name)];
+    if (std::isfinite(h.max_abs)) scale = std::max(scale, h.max_abs);
+  }
+  scales["kg m^2/s"] = std::max(scales["kg m^2/s"], length * scales["kg m/s"]);
+  for (const auto& [name, h] : columns) {
+    if (is_bookkeeping(observer, name)) continue;
+    const std::string unit = unit_of_quantity(observer, name);
+    const std::string path = "histories." + observer + "." + name + ".";
+    const double scale = scales.at(unit);
+    numbers.add(path + "min", unit, h.min, scale);
+    numbers.add(path + "max", unit, h.max, scale);
+    numbers.add(path + "max_abs", unit, h.max_abs, scale);
+    numbers.add(path + "last", unit, h.last, scale);
+    if (!(h.max_abs > rounding * scale)) continue;  // when noise was largest is nothing
+    numbers.add(path + "time_of_min", "s", h.time_of_min);
+    numbers.add(path + "time_of_max", "s", h.time_of_max);
+  }
+}
+
+void add_episode(Numbers& numbers, const std::string& path, const EpisodeSummary& e, double length) {
+  numbers.add(path + "first_touch", "s", e.first_touch);
+  numbers.add(path + "separation", "s", e.separation);
+  numbers.add(path + "duration", "s", e.duration);
+  numbers.add(path + "impulse", "N s", e.impulse);
+  numbers.add(path + "peak_force", "N", e.peak_force);
+  const double speed = std::max(std::hypot(e.velocity_before.x, e.velocity_before.y),
+                                std::hypot(e.velocity_after.x, e.velocity_after.y));
+  numbers.add(path + "velocity_before", "m/s", e.velocity_before, speed);
+  numbers.add(path + "velocity_after", "m/s", e.velocity_after, speed);
+  numbers.add(path + "restitution", "", e.restitution);
+  numbers.add(path + "tangential_restitution", "", e.tangential_restitution);
+  numbers.add(path + "slip_velocity_before", "m/s", e.slip_velocity_before, speed);
+  numbers.add(path + "slip_velocity_after", "m/s", e.slip_velocity_after, speed);
+  const double spin_scale = length * std::hypot(e.impulse.x, e.impulse.y);
+  for (const auto& [body, spin] : e.spin_before) {
+    numbers.add(path + "spin_before." + body, "kg m^2/s", spin, spin_scale);
+  }
+  for (const auto& [body, spin] : e.spin_after) {
+    numbers.add(path + "spin_after." + body, "kg m^2/s", spin, spin_scale);
+  }
+}
+
+void add_contact(Numbers& numbers, const std::string& name, const ContactSummary& c, double length) {
+  const std::string path = "contacts." + name + ".";
+  numbers.add(path + "first_touch", "s", c.first_touch);
+  numbers.add(path + "last_separation", "s", c.last_separation);
+  numbers.add(path + "duration", "s", c.duration);
+  numbers.add(path + "duration_99", "s", c.duration_99);
+  numbers.add(path + "impulse", "N s", c.impulse);
+  numbers.add(path + "peak_force", "N", c.peak_force);
+  for (std::size_t k = 0; k < c.episodes.size(); ++k) {
+    add_episode(numbers, path + "episodes." + std::to_string(k) + ".", c.episodes[k], length);
+  }
+}
+
+}  // namespace
+
+bool is_bookkeeping(std::string_view history, std::string_view column) {
+  const bool book = history == "energy" || history == "momentum";
+  return column == "touching_nodes" || column == "flows" || (book && column.starts_with("error"));
+}
+
+double length_scale(const Summary& summary) {
+  double length = 0;
+  for (const auto& [observer, columns] : summary.histories) {
+    for (const auto& [name, h] : columns) {
+      if (name.starts_with("position_") && h.max_abs > length) length = h.max_abs;
+    }
+  }
+  return length;
+}
+
+std::string unit_of_quantity(std::string_view history, std::string_view column) {
+  if (history == "energy") return "J";
+  constexpr std::array<std::pair<std::string_view, const char*>, 16> known{{{"position", "m"},
+                                                                            {"displacement", "m"},
+                                                                            {"velocity", "m/s"},
+                                                                            {"angular_velocity", "rad/s"},
+                                                                            {"acceleration", "m/s^2"},
+                                                                            {"momentum", "kg m/s"},
+                                                                            {"spin", "kg m^2/s"},
+                                                                            {"stress", "Pa"},
+                                                                            {"principal", "Pa"},
+                                                                            {"max_shear", "Pa"},
+                                                                            {"force", "N"},
+                                                                            {"reaction", "N"},
+                                                                            {"moment", "N m"},
+                                                                            {"impulse", "N s"},
+                                                                            {"angle", "rad"},
+                                                                            {"turn", "rad"}}};
+  for (const auto& [stem, unit] : known) {
+    if (column == stem || column.starts_with(std::string(stem) + "_")) return unit;
+  }
+  return history == "momentum" ? "N s" : "";
+}
+
+std::vector<SummaryNumber> numbers_of(const Summary& s) {
+  Numbers numbers;
+  const double length = length_scale(s);
+  numbers.add("energy_error", "", s.energy_error);
+  numbers.add("penetration_ratio", "", s.penetration_ratio);
+  numbers.add("deepest_penetration.depth", "m", s.deepest_penetration.depth);
+  numbers.add("deepest_penetration.time", "s", s.deepest_penetration.time);
+  for (const auto& [body, mass] : s.masses) numbers.add("masses." + body, "kg", mass);
+  add_ledger(numbers, s.ledger);
+  add_momentum(numbers, s.momentum);
+  for (const auto& [observer, columns] : s.histories) add_history(numbers, observer, columns, length);
+  for (const auto& [name, contact] : s.contacts) add_contact(numbers, name, contact, length);
+  return std::move(numbers.found);
+}
+
+}  // namespace udar
