@@ -30,10 +30,11 @@ struct MadeRun {
   std::vector<double> times{0, 1e-3};
   double flows_from = 1;  ///< m
   double step = 1e-6;     ///< s; 0: the run left no summary
+  double flight = 50;     ///< m/s, to the right
   bool has_displacement = true;
 
-  /// Bodies fly to the right with 50 m/s and grow with time.
-  static Vec2 displacement(Vec2 p, double time) { return time * (Vec2{50, 0} + 10 * p); }
+  /// Bodies fly and grow with time.
+  [[nodiscard]] Vec2 displacement(Vec2 p, double time) const { return time * (Vec2{flight, 0} + 10 * p); }
 
   VtuGrid grid(double time) const {
     std::vector<Vec2> places, displacements, velocities;
@@ -127,6 +128,18 @@ TEST_CASE("fields of two runs: which ones, their units, and differences in close
   CHECK(named(all, "velocity").size == doctest::Approx(std::sqrt(4.0 / 3 + 1.0 / 3)).epsilon(1e-6));
   CHECK(named(all, "displacement").max < 1e-8);
   CHECK(named(all, "flows_now").l2 == 0);
+}
+
+TEST_CASE("places are compared as they were before the run, also where no frame is left of its beginning") {
+  const Scratch scratch;
+  const MadeRun coarse{.bodies = {{"plate", plate(4)}}, .times = {1e-3}, .flight = -700};
+  const MadeRun fine{.bodies = {{"plate", plate(8)}}, .times = {1e-3}, .flight = 3000};
+  const std::vector<FieldDifference> all =
+      field_differences(coarse.write(scratch / "a"), fine.write(scratch / "b"), 1e-3);
+  CHECK(named(all, "plastic_strain").l2 == doctest::Approx(0.25 / std::sqrt(24)).epsilon(1e-5));
+  CHECK(named(all, "plastic_strain").outside == 0);
+  CHECK(named(all, "velocity").max < 2e-6);  // places are known to 3 m * 2^-24
+  CHECK(named(all, "displacement").l2 == doctest::Approx(3.7).epsilon(1e-6));
 }
 
 TEST_CASE("flags: the square of the norm is the part of the area that differs") {

@@ -93,6 +93,7 @@ TEST_CASE("of triangles that share an edge or a corner the first is found, also 
     }
   }
   CHECK(finder.find({-1e-5, 0.5}).outside);
+  CHECK(finder.find({-1, -1}).triangle == 0);  // as near to the other one at that corner
 }
 
 TEST_CASE("triangles without area are never found, a mesh of them is refused, and so are places that are none") {
