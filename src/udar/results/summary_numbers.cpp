@@ -10,22 +10,43 @@ namespace {
 
 constexpr double rounding = 1e-9;  // beside the scale of its kind
 
+/// The largest distance of a body from the origin, m.
+double length_of(const Summary& summary) {
+  double length = 0;
+  for (const auto& [observer, columns] : summary.histories) {
+    for (const auto& [name, h] : columns) {
+      if (name.starts_with("position_") && h.max_abs > length) length = h.max_abs;
+    }
+  }
+  return length;
+}
+
 class Numbers {
  public:
+  explicit Numbers(const Summary& summary) : summary_(summary) {}
+
   void add(std::string name, std::string unit, double value, double scale = 0) {
-    if (std::isfinite(value)) found.push_back({std::move(name), std::move(unit), value, scale});
+    if (!std::isfinite(value)) return;
+    scale = std::max(scale, scale_of_run(summary_, unit));
+    found.push_back({std::move(name), std::move(unit), value, scale});
   }
-  void add(const std::string& name, const std::string& unit, Vec2 value, double scale = 0) {
+  void add(const std::string& name, const std::string& unit, Vec2 value) {
     const double length = std::hypot(value.x, value.y);
-    add(name + ".x", unit, value.x, std::max(scale, length));
-    add(name + ".y", unit, value.y, std::max(scale, length));
+    add(name + ".x", unit, value.x, length);
+    add(name + ".y", unit, value.y, length);
+  }
+  /// May rounding errors be all that a column is?
+  [[nodiscard]] bool is_noise(double largest, const std::string& unit, double scale) const {
+    return !(largest > rounding * std::max(scale, scale_of_run(summary_, unit)));
   }
 
   std::vector<SummaryNumber> found;
+
+ private:
+  const Summary& summary_;
 };
 
 void add_ledger(Numbers& numbers, const LedgerSummary& l) {
-  const double scale = std::max(std::fabs(l.start), std::fabs(l.total));
   const std::array<std::pair<const char*, double>, 15> terms{{{"start", l.start},
                                                               {"kinetic", l.kinetic},
                                                               {"elastic", l.elastic},
@@ -41,31 +62,25 @@ void add_ledger(Numbers& numbers, const LedgerSummary& l) {
                                                               {"supports", l.supports},
                                                               {"obstacles", l.obstacles},
                                                               {"total", l.total}}};
-  for (const auto& [name, value] : terms) numbers.add(std::string("ledger.") + name, "J", value, scale);
+  for (const auto& [name, value] : terms) numbers.add(std::string("ledger.") + name, "J", value);
 }
 
 void add_momentum(Numbers& numbers, const MomentumSummary& m) {
-  double scale = 0;
-  for (const Vec2& v : {m.start, m.end, m.obstacles, m.gravity, m.loads, m.supports}) {
-    scale = std::max(scale, std::hypot(v.x, v.y));
-  }
-  numbers.add("momentum.start", "N s", m.start, scale);
-  numbers.add("momentum.end", "N s", m.end, scale);
-  numbers.add("momentum.obstacles", "N s", m.obstacles, scale);
-  numbers.add("momentum.gravity", "N s", m.gravity, scale);
-  numbers.add("momentum.loads", "N s", m.loads, scale);
-  numbers.add("momentum.supports", "N s", m.supports, scale);
-  numbers.add("momentum.damping", "N s", m.damping, scale);
+  numbers.add("momentum.start", "N s", m.start);
+  numbers.add("momentum.end", "N s", m.end);
+  numbers.add("momentum.obstacles", "N s", m.obstacles);
+  numbers.add("momentum.gravity", "N s", m.gravity);
+  numbers.add("momentum.loads", "N s", m.loads);
+  numbers.add("momentum.supports", "N s", m.supports);
+  numbers.add("momentum.damping", "N s", m.damping);
 }
 
-void add_history(Numbers& numbers, const std::string& observer, const std::map<std::string, HistorySummary>& columns,
-                 double length) {
+void add_history(Numbers& numbers, const std::string& observer, const std::map<std::string, HistorySummary>& columns) {
   std::map<std::string, double> scales;  // by unit: the components of a vector have one
   for (const auto& [name, h] : columns) {
     double& scale = scales[unit_of_quantity(observer, name)];
     if (std::isfinite(h.max_abs)) scale = std::max(scale, h.max_abs);
   }
-  scales["kg m^2/s"] = std::max(scales["kg m^2/s"], length * scales["kg m/s"]);
   for (const auto& [name, h] : columns) {
     if (is_bookkeeping(observer, name)) continue;
     const std::string unit = unit_of_quantity(observer, name);
@@ -75,36 +90,29 @@ void add_history(Numbers& numbers, const std::string& observer, const std::map<s
     numbers.add(path + "max", unit, h.max, scale);
     numbers.add(path + "max_abs", unit, h.max_abs, scale);
     numbers.add(path + "last", unit, h.last, scale);
-    if (!(h.max_abs > rounding * scale)) continue;  // when noise was largest is nothing
+    if (numbers.is_noise(h.max_abs, unit, scale)) continue;  // when it was largest is nothing
     numbers.add(path + "time_of_min", "s", h.time_of_min);
     numbers.add(path + "time_of_max", "s", h.time_of_max);
   }
 }
 
-void add_episode(Numbers& numbers, const std::string& path, const EpisodeSummary& e, double length) {
+void add_episode(Numbers& numbers, const std::string& path, const EpisodeSummary& e) {
   numbers.add(path + "first_touch", "s", e.first_touch);
   numbers.add(path + "separation", "s", e.separation);
   numbers.add(path + "duration", "s", e.duration);
   numbers.add(path + "impulse", "N s", e.impulse);
   numbers.add(path + "peak_force", "N", e.peak_force);
-  const double speed = std::max(std::hypot(e.velocity_before.x, e.velocity_before.y),
-                                std::hypot(e.velocity_after.x, e.velocity_after.y));
-  numbers.add(path + "velocity_before", "m/s", e.velocity_before, speed);
-  numbers.add(path + "velocity_after", "m/s", e.velocity_after, speed);
+  numbers.add(path + "velocity_before", "m/s", e.velocity_before);
+  numbers.add(path + "velocity_after", "m/s", e.velocity_after);
   numbers.add(path + "restitution", "", e.restitution);
   numbers.add(path + "tangential_restitution", "", e.tangential_restitution);
-  numbers.add(path + "slip_velocity_before", "m/s", e.slip_velocity_before, speed);
-  numbers.add(path + "slip_velocity_after", "m/s", e.slip_velocity_after, speed);
-  const double spin_scale = length * std::hypot(e.impulse.x, e.impulse.y);
-  for (const auto& [body, spin] : e.spin_before) {
-    numbers.add(path + "spin_before." + body, "kg m^2/s", spin, spin_scale);
-  }
-  for (const auto& [body, spin] : e.spin_after) {
-    numbers.add(path + "spin_after." + body, "kg m^2/s", spin, spin_scale);
-  }
+  numbers.add(path + "slip_velocity_before", "m/s", e.slip_velocity_before);
+  numbers.add(path + "slip_velocity_after", "m/s", e.slip_velocity_after);
+  for (const auto& [body, spin] : e.spin_before) numbers.add(path + "spin_before." + body, "kg m^2/s", spin);
+  for (const auto& [body, spin] : e.spin_after) numbers.add(path + "spin_after." + body, "kg m^2/s", spin);
 }
 
-void add_contact(Numbers& numbers, const std::string& name, const ContactSummary& c, double length) {
+void add_contact(Numbers& numbers, const std::string& name, const ContactSummary& c) {
   const std::string path = "contacts." + name + ".";
   numbers.add(path + "first_touch", "s", c.first_touch);
   numbers.add(path + "last_separation", "s", c.last_separation);
@@ -113,7 +121,7 @@ void add_contact(Numbers& numbers, const std::string& name, const ContactSummary
   numbers.add(path + "impulse", "N s", c.impulse);
   numbers.add(path + "peak_force", "N", c.peak_force);
   for (std::size_t k = 0; k < c.episodes.size(); ++k) {
-    add_episode(numbers, path + "episodes." + std::to_string(k) + ".", c.episodes[k], length);
+    add_episode(numbers, path + "episodes." + std::to_string(k) + ".", c.episodes[k]);
   }
 }
 
@@ -124,14 +132,21 @@ bool is_bookkeeping(std::string_view history, std::string_view column) {
   return column == "touching_nodes" || column == "flows" || (book && column.starts_with("error"));
 }
 
-double length_scale(const Summary& summary) {
-  double length = 0;
-  for (const auto& [observer, columns] : summary.histories) {
-    for (const auto& [name, h] : columns) {
-      if (name.starts_with("position_") && h.max_abs > length) length = h.max_abs;
-    }
-  }
-  return length;
+double scale_of_run(const Summary& s, std::string_view unit) {
+  double mass = 0;
+  for (const auto& [body, m] : s.masses) mass += m;
+  const double energy = std::max(std::fabs(s.ledger.start), std::fabs(s.ledger.total));
+  const double momentum = std::sqrt(2 * mass * energy);
+  const double velocity = mass > 0 ? momentum / mass : 0;
+  if (unit == "J") return energy;
+  if (unit == "kg m/s" || unit == "N s") return momentum;
+  if (unit == "m/s") return velocity;
+  if (unit == "kg m^2/s") return momentum * length_of(s);
+  const double rate = s.end_time > 0 ? 1 / s.end_time : 0;
+  if (unit == "m/s^2") return velocity * rate;
+  if (unit == "N") return momentum * rate;
+  if (unit == "N m") return momentum * rate * length_of(s);
+  return 0;
 }
 
 std::string unit_of_quantity(std::string_view history, std::string_view column) {
@@ -159,8 +174,7 @@ std::string unit_of_quantity(std::string_view history, std::string_view column) 
 }
 
 std::vector<SummaryNumber> numbers_of(const Summary& s) {
-  Numbers numbers;
-  const double length = length_scale(s);
+  Numbers numbers(s);
   numbers.add("energy_error", "", s.energy_error);
   numbers.add("penetration_ratio", "", s.penetration_ratio);
   numbers.add("deepest_penetration.depth", "m", s.deepest_penetration.depth);
@@ -168,8 +182,8 @@ std::vector<SummaryNumber> numbers_of(const Summary& s) {
   for (const auto& [body, mass] : s.masses) numbers.add("masses." + body, "kg", mass);
   add_ledger(numbers, s.ledger);
   add_momentum(numbers, s.momentum);
-  for (const auto& [observer, columns] : s.histories) add_history(numbers, observer, columns, length);
-  for (const auto& [name, contact] : s.contacts) add_contact(numbers, name, contact, length);
+  for (const auto& [observer, columns] : s.histories) add_history(numbers, observer, columns);
+  for (const auto& [name, contact] : s.contacts) add_contact(numbers, name, contact);
   return std::move(numbers.found);
 }
 

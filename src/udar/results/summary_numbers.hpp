@@ -22,8 +22,9 @@ std::vector<SummaryNumber> numbers_of(const Summary& summary);
 /// Counts, flags and errors of the books, which are no results.
 bool is_bookkeeping(std::string_view history, std::string_view column);
 
-/// The largest distance of a body from the origin, m: with a momentum, the scale of a spin. 0 where nothing is known.
-double length_scale(const Summary& summary);
+/// What a quantity of this SI unit could be in the run, from its masses, energy, size and duration: beside it a
+/// momentum or a spin that is only rounding is nothing. 0 for other units, and where nothing is known.
+double scale_of_run(const Summary& summary, std::string_view unit);
 
 /// The unit of a column of a history: "corner", "velocity_x" -> "m/s"; "" for plain numbers.
 std::string unit_of_quantity(std::string_view history, std::string_view column);

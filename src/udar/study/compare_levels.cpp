@@ -132,13 +132,13 @@ double largest_of(const std::vector<double>& values) {
 }
 
 /// The columns that are more than rounding, beside those in the same unit.
-std::vector<Column> columns_with_something(const History& history, const std::string& name, double length) {
+std::vector<Column> columns_with_something(const History& history, const std::string& name, const Summary& summary) {
   std::map<std::string, double> scales;
   for (std::size_t c = 1; c < history.columns.size(); ++c) {
-    double& scale = scales[history.columns[c].unit];
-    scale = std::max(scale, largest_of(history.values[c]));
+    const std::string& unit = history.columns[c].unit;
+    const double own = std::max(largest_of(history.values[c]), scale_of_run(summary, unit));
+    scales[unit] = std::max(scales[unit], own);
   }
-  scales["kg m^2/s"] = std::max(scales["kg m^2/s"], length * scales["kg m/s"]);
   std::vector<Column> found;
   for (std::size_t c = 1; c < history.columns.size(); ++c) {
     const Column& column = history.columns[c];
@@ -173,10 +173,12 @@ FramesOfRuns open_frames(const Levels& levels) {
 /// Times at which fields are compared: of the finest run's frames, evenly spread, the last one among them.
 std::vector<double> field_times(const RunFrames& finest) {
   constexpr std::size_t most = 4;
-  const std::size_t after_start = finest.count() - 1;
+  std::size_t first = 0;
+  while (first < finest.count() && finest.time(first) <= 0) ++first;  // at the start all is equal
+  const std::size_t after_start = finest.count() - first;
   const std::size_t count = std::min(most, after_start);
   std::vector<double> times;
-  for (std::size_t k = 1; k <= count; ++k) times.push_back(finest.time(after_start * k / count));
+  for (std::size_t k = 1; k <= count; ++k) times.push_back(finest.time(first + after_start * k / count - 1));
   return times;
 }
 
@@ -214,12 +216,12 @@ std::vector<StudyDifference> compare_histories(const Levels& levels, const Conve
   std::vector<StudyDifference> found;
   const std::optional<std::size_t> finest = finest_run(levels);
   if (!finest) return found;
-  const double length = length_scale(*levels.standings[*finest].summary);
+  const Summary& summary = *levels.standings[*finest].summary;
   for (const fs::path& file : find_run_files(folder_of(levels, *finest)).histories) {
     const std::string name = file.stem().string();
     const HistoryOfRuns runs = read_history(levels, name);
     const HistoryLevels history(levels, options, runs);
-    for (const Column& column : columns_with_something(runs.at(*finest), name, length)) {
+    for (const Column& column : columns_with_something(runs.at(*finest), name, summary)) {
       StudyDifference d{.name = name + "." + column.name, .unit = column.unit};
       Norms mesh = history.norms(levels.mesh, column.name);
       Norms step = history.norms(levels.step, column.name);
