@@ -77,7 +77,7 @@ class CommandLine(Program):
         self.assertIn("udar run cases/short-beam/short-beam.toml", out)
         self.assertIn("Exit codes", out)
         for command, word in {"run": "--output", "check": "--set", "report": "--limit", "keys": "udar keys friction",
-                              "plot": "--from", "picture": "--times", "movie": "--fps"}.items():
+                              "plot": "--from", "picture": "--times", "movie": "--fps", "diff": "--within"}.items():
             self.assertIn(command, out)
             text, _ = self.udar(command, "--help")
             self.assertIn("Example", text)
@@ -89,9 +89,9 @@ class CommandLine(Program):
 
     def test_wrong_commands(self):
         for words, message, cure in [
-            ([], "a command is needed: run, check, report, plot, picture, movie or keys", "udar --help"),
+            ([], "a command is needed: run, check, report, plot, picture, movie, diff or keys", "udar --help"),
             (["rnu", "block.toml"], "`rnu` is no command", "did you mean `run`?"),
-            (["frobnicate"], "`frobnicate` is no command", "write run, check, report, plot, picture, movie or keys"),
+            (["frobnicate"], "`frobnicate` is no command", "write run, check, report, plot, picture, movie, diff or keys"),
             (["run"], "a case file is needed", "`udar run --help`"),
             (["report"], "the folder of a run is needed", "`udar report --help`"),
             (["report", "runs", "--frames", "1"], "--frames", "`udar report --help`"),

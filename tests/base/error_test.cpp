@@ -62,6 +62,7 @@ TEST_CASE("exit codes never change") {
   CHECK(static_cast<int>(ExitCode::output) == 6);
   CHECK(static_cast<int>(ExitCode::resources) == 7);
   CHECK(static_cast<int>(ExitCode::checkpoint) == 8);
+  CHECK(static_cast<int>(ExitCode::differs) == 9);
   CHECK(static_cast<int>(ExitCode::interrupted) == 130);
   CHECK(static_cast<int>(ExitCode::terminated) == 143);
 }

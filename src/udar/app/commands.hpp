@@ -33,6 +33,7 @@ Command add_picture(CLI::App& app);
 Command add_movie(CLI::App& app);
 Command add_converge(CLI::App& app);
 Command add_sweep(CLI::App& app);
+Command add_diff(CLI::App& app);
 
 /// A case and the changes made to it, as several commands take them.
 struct CaseArguments {

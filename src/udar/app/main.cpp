@@ -28,15 +28,17 @@ constexpr const char* footer = R"(Examples:
   udar picture runs/short-beam --time "0.5 ms" --field sigma1 --output stress.png
   udar converge cases/short-beam/short-beam.toml --mesh 3 --ratio 2 --step 3
   udar plot runs/short-beam corner.displacement_y --output corner.svg
+  udar diff runs/coarse runs/short-beam
 
 Exit codes:
   0 done                 3 wrong case                  6 results could not be written
   1 internal error       4 wrong mesh                  7 out of memory or threads
-  2 wrong command line   5 stopped by a numerical      130, 143 stopped by Ctrl-C or SIGTERM
-                           failure                       with everything saved)";
+  2 wrong command line   5 stopped by a numerical      9 not within what --within asks for
+                           failure                     130, 143 stopped by Ctrl-C or SIGTERM
+                                                         with everything saved)";
 
 /// What adds each command, in the order of the help.
-constexpr std::array add_commands{add_run,  add_check,   add_converge, add_sweep, add_report,
+constexpr std::array add_commands{add_run,  add_check,   add_converge, add_sweep, add_diff, add_report,
                                   add_plot, add_picture, add_movie,    add_keys};
 
 std::vector<std::string> names_of(const CLI::App& app) {
@@ -77,6 +79,8 @@ ExitCode refuse(const CLI::App& app, const CLI::ParseError& error) {
     message = "a case file is needed";
   } else if (message == "RUN is required") {
     message = "the folder of a run is needed";
+  } else if (message == "A is required" || message == "B is required") {
+    message = "two runs are needed, or a run and a table";
   } else if (message == "--output is required") {
     message = "a file to make is needed";
     cure = "write --output and its name";

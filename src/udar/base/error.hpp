@@ -17,6 +17,7 @@ enum class ExitCode : int {
   output = 6,
   resources = 7,
   checkpoint = 8,
+  differs = 9,  ///< results are not within the bound that was asked for
   interrupted = 130,
   terminated = 143,
 };
