@@ -23,7 +23,7 @@ constexpr const char* diff_footer = R"(Examples:
   udar diff runs/short-beam measured.csv --map "deflection=corner.displacement_y" --shift "0.1 ms"
   udar diff runs/short-beam runs/expected --only corner --within "2 %"
 
-A table (.csv, .tsv, .txt) names its columns in its first line, with units: time [ms];corner.displacement_y [mm].
+A table (a .csv file) names its columns in its first line, with units: time [ms];corner.displacement_y [mm].
 Differences are A - B; percents are of B. docs/diff.md has the formulas.
 Exit code 9: --within is exceeded.)";
 

@@ -38,8 +38,8 @@ Exit codes:
                                                          with everything saved)";
 
 /// What adds each command, in the order of the help.
-constexpr std::array add_commands{add_run,  add_check,   add_converge, add_sweep, add_diff, add_report,
-                                  add_plot, add_picture, add_movie,    add_keys};
+constexpr std::array add_commands{add_run,    add_check, add_converge, add_sweep, add_diff,
+                                  add_report, add_plot,  add_picture,  add_movie, add_keys};
 
 std::vector<std::string> names_of(const CLI::App& app) {
   std::vector<std::string> names;

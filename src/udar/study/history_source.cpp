@@ -54,7 +54,10 @@ History HistorySource::read(const std::string& history) const {
   return out;
 }
 
-bool is_table_name(const std::filesystem::path& path) {
+bool is_table(const std::filesystem::path& path) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(path, error)) return true;
+  if (std::filesystem::is_directory(path, error)) return false;
   std::string ending = path.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });

@@ -62,8 +62,8 @@ class HistorySource {
   MeasuredTable table_;
 };
 
-/// Is it the name of a table?
-bool is_table_name(const std::filesystem::path& path);
+/// Is it a table, or does its name say so? Else it should be the folder of a run.
+bool is_table(const std::filesystem::path& path);
 
 /// Every "history.column" of a source.
 std::vector<std::string> names_of(const std::vector<HistoryColumns>& histories);

@@ -180,17 +180,19 @@ void compare_columns(RunDifference& out, const std::vector<Shared>& shared, cons
       out.columns.push_back(std::move(c));
     }
   }
-  const bool any = std::any_of(out.columns.begin(), out.columns.end(),
-                               [](const ColumnDifference& c) { return c.difference.compared() || c.same_bits; });
-  if (any) return;
   const bool cut = std::isfinite(how.from) || std::isfinite(how.to);
+  // Runs of one row, as one that failed at once leaves them, have no time to compare over and may yet be the same.
+  const bool as_they_are = !cut && how.shift_b == 0;
+  const bool any = std::any_of(out.columns.begin(), out.columns.end(), [&](const ColumnDifference& c) {
+    return c.difference.compared() || (as_they_are && c.same_bits);
+  });
+  if (any) return;
   refuse(fmt::format("there is no time that both have: A has rows {}, B {}", range_a.text(), range_b.text()),
          cut ? "widen --from and --to, or move B with --shift" : "move B with --shift, or compare other runs");
 }
 
 HistorySource open_side(const std::filesystem::path& path, const TableRequest& request) {
-  return is_table_name(path) && !is_run_folder(path) ? HistorySource::of_table(path, request)
-                                                     : HistorySource::of_run(path);
+  return is_table(path) ? HistorySource::of_table(path, request) : HistorySource::of_run(path);
 }
 
 double touch_of(const HistorySource& side) {
@@ -203,8 +205,8 @@ double touch_of(const HistorySource& side) {
 
 /// Two sources, a table knowing what the other side has.
 std::pair<HistorySource, HistorySource> open_both(const DifferenceRequest& request) {
-  const bool table_a = is_table_name(request.a) && !is_run_folder(request.a);
-  const bool table_b = is_table_name(request.b) && !is_run_folder(request.b);
+  const bool table_a = is_table(request.a);
+  const bool table_b = is_table(request.b);
   if (!request.maps.empty() && !table_a && !table_b) {
     refuse("--map names columns of a table, and both are runs", "leave --map out, or name a .csv file");
   }

@@ -16,6 +16,14 @@ namespace {
   throw UserError(ExitCode::usage, fmt::format("`{}` {}", file.string(), reason), cure);
 }
 
+/// The file, if it may be opened: reading a pipe or a device could wait for ever.
+const std::filesystem::path& checked(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) refuse_file(file, "is not there", "name a table, or the folder of a run");
+  if (!std::filesystem::is_regular_file(file, error)) refuse_file(file, "is no file", "name a file with a table");
+  return file;
+}
+
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 }  // namespace
@@ -31,9 +39,7 @@ void TablePlace::refuse(const std::string& message, const std::string& reason, c
                                      .cure = cure}});
 }
 
-TableLines::TableLines(const std::filesystem::path& file) : reader_(file) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) refuse_file(file, "is no file", "name a file with a table");
+TableLines::TableLines(const std::filesystem::path& file) : reader_(checked(file)) {
   if (reader_.size() > largest_table) {
     refuse_file(file, fmt::format("has {} bytes; {} are read at most", reader_.size(), largest_table),
                 "keep every tenth row, or only the columns that you compare");

@@ -25,7 +25,7 @@ struct TablePlace {
 /// lines, and over a byte order mark.
 class TableLines {
  public:
-  /// Throws UserError where the file is too large or is none, OutputError where it cannot be opened.
+  /// Throws UserError where the file is too large or is none, OutputError where it cannot be read.
   explicit TableLines(const std::filesystem::path& file);
   /// False at the end.
   bool next(TablePlace& place);
