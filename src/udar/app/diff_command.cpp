@@ -83,11 +83,11 @@ DifferenceRequest request_of(const Arguments& arguments) {
   return request;
 }
 
-/// "3.4 %"; nothing smaller than it matters beside 1000 %.
+/// "3.41 %", "427 %".
 std::string percent(double part) {
   if (std::isnan(part)) return "-";
   if (part > 1e4) return std::isinf(part) ? "B is 0" : fmt::format("{:.1e} %", 100 * part);
-  if (part >= 10) return fmt::format("{:.0f} %", 100 * part);
+  if (part >= 0.9995) return fmt::format("{:.0f} %", 100 * part);
   return fmt::format("{:.3g} %", 100 * part);
 }
 
@@ -289,7 +289,7 @@ Command add_diff(CLI::App& app) {
   const auto arguments = std::make_shared<Arguments>();
   words->add_option("A", arguments->a, "Folder of a run, or a table")->required()->type_name("");
   words->add_option("B", arguments->b, "What it is compared with: another one")->required()->type_name("");
-  words->add_option("--only", arguments->only, "Only these: HISTORY, HISTORY.COLUMN")->type_name("NAME...");
+  words->add_option("--only", arguments->only, "Only these: HISTORY, HISTORY.COLUMN")->type_name("NAME");
   words->add_flag("--align", arguments->align, "Move B so that the first touches of the runs fall together");
   words->add_option("--shift", arguments->shift, "Move B in time: \"0.1 ms\" is later")->type_name("TIME");
   words->add_option("--window", arguments->window, "Compare moving averages over so long a time")->type_name("TIME");

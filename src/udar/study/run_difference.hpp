@@ -74,7 +74,7 @@ struct RunDifference {
   std::optional<BitDifference> bits;  ///< of two runs
   double moved = 0;                   ///< s, added to the times of b
   std::vector<ColumnDifference> columns;
-  std::vector<std::string> only_in_a;  ///< histories and columns
+  std::vector<std::string> only_in_a;  ///< histories and columns; of a run against a table not told
   std::vector<std::string> only_in_b;
   std::vector<NumberDifference> numbers;  ///< of the summaries
   std::vector<KeyDifference> keys;        ///< of the cases
