@@ -214,7 +214,11 @@ HistoryDifference compare_histories(HistoryView rows_a, HistoryView rows_b, cons
     a = moving_average(a, how.window, times);
     b = moving_average(b, how.window, times);
   }
-  return difference(cut_to(a, how.from, how.to), cut_to(b, how.from, how.to), how.tolerance);
+  if (std::isfinite(how.from) || std::isfinite(how.to)) {
+    a = cut_to(a, how.from, how.to);
+    b = cut_to(b, how.from, how.to);
+  }
+  return difference(a, b, how.tolerance);
 }
 
 }  // namespace udar

@@ -33,6 +33,7 @@ struct MeasuredTable {
 struct TableRequest {
   std::vector<std::string> maps;                       ///< "column=corner.displacement_y"
   const std::vector<HistoryColumns>* known = nullptr;  ///< what the other side has; null: every column is kept
+  std::size_t most_values = std::size_t{1} << 25;      ///< that are kept, times included: 256 MB
 };
 
 /// Reads a table: first column time, first line names with units ("x [mm]"; none: SI), `,` `;` or tab between them,

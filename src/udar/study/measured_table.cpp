@@ -224,6 +224,10 @@ class TableReader {
       if (!table_.times.empty() && time < table_.times.back()) {
         place_.refuse("time goes back", "this row is before the one above", "sort the rows by time");
       }
+      if ((table_.times.size() + 1) * (wanted_.size() + 1) > request_.most_values) {
+        place_.refuse("the table has too many rows", fmt::format("{} values are kept at most", request_.most_values),
+                      "keep every tenth row, or only the columns that you compare");
+      }
       table_.times.push_back(time);
       for (Wanted& w : wanted_) w.values.push_back(w.to_si(number(w.field)));
     }
