@@ -42,7 +42,8 @@ struct TwoRuns {
   static Summary summary(double first_touch) {
     Summary s{.version = "1", .case_name = "c", .steps = 10, .verdict = "good"};
     s.contacts["stop"] = {.first_touch = first_touch, .duration = 1, .impulse = {3, -4}};
-    s.contacts["wall"] = {};
+    s.contacts["wall"] = {.first_touch = 1.5};
+    s.contacts["zero"] = {};  // never touched
     s.histories["corner"]["x"] = {.min = -1, .max = 2};
     return s;
   }
@@ -98,6 +99,15 @@ TEST_CASE("the earliest row that is not the same, in the history where it comes 
   CHECK(runs.compare().bits->time == 0);
   CHECK_FALSE(column(runs.compare(), "stop.force").same_bits);
   CHECK(column(runs.compare(), "corner.x").same_bits);
+}
+
+TEST_CASE("a history that is looked at later may part first") {
+  const TwoRuns runs;
+  TwoRuns::write(runs.b, "histories/stop.csv", "time [s],force [N]\n0,0\n1,10\n2,1\n");
+  TwoRuns::write(runs.b, "histories/corner.csv",
+                 "time [s],x [m],v [m/s],noise [m]\n0,0,1,0\n1,2,1,1e-17\n2,2,1,-1e-17\n");
+  CHECK(runs.compare().bits->where == "corner.x");
+  CHECK(runs.compare().bits->time == 1);
 }
 
 TEST_CASE("other reasons for other bits") {
