@@ -1,7 +1,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cstring>
+#include <bit>
+#include <cstdint>
 #include <map>
 
 #include "udar/results/file.hpp"
@@ -25,7 +26,7 @@ bool same_bytes(const fs::path& a, const fs::path& b) {
   return true;
 }
 
-bool same_double(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+bool same_double(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
 /// The first row that is not the same, of two files of which the bytes differ.
 BitDifference first_row(const std::string& name, const History& a, const History& b) {
