@@ -5,7 +5,6 @@
 #include <memory>
 
 #include "udar/app/commands.hpp"
-#include "udar/app/picture_options.hpp"
 #include "udar/app/terminal.hpp"
 #include "udar/case/ascii.hpp"
 #include "udar/results/file.hpp"
