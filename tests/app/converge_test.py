@@ -206,6 +206,25 @@ class Convergence(Studies):
         self.assertEqual({p: p.stat().st_mtime_ns for p in before}, before)
         self.assertEqual([run["state"] for run in self.study()["runs"]], ["done"] * 4)
 
+    def test_histories_are_aligned_and_averaged(self):
+        def change(*words):
+            self.converge("--mesh", "2", "--step", "1", "--set", "bodies.block.mesh.at=[\"-2 cm\", \"0.1 mm\"]", *words)
+            study = self.study()
+            self.assertEqual(study["comparison"], {"aligned": "--align" in words, "window": 1e-5 if len(words) > 1 else None})
+            return named(study["histories"], "stop.force_y")["mesh_l2"]["differences"][0]
+
+        plain = change()
+        self.assertLess(change("--average", "10 us"), 0.5 * plain)
+        self.assertNotEqual(change("--align"), plain)
+
+    def test_all_levels_fail(self):
+        out, _ = self.converge("--mesh", "2", "--step", "2", "--set", "run.stop_at_energy_error=1e-12", code=5)
+        self.assertIn("0 of 4 runs done, 4 failed", out)
+        self.assertEqual(self.study()["quantities"], [])
+        text = (self.folder / "study/study.md").read_text()
+        self.assertIn("the energy books are", text)
+        self.assertNotIn("Refining", text)
+
     def test_bad_words(self):
         for words, told in (
             (["--mesh", "1", "--step", "1"], "one mesh with one step"),

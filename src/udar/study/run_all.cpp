@@ -185,7 +185,9 @@ Standing look_at(const fs::path& folder, const PlannedRun& run) {
     standing.part = 1;
   } else if (s.stop_reason == "numerical") {
     standing.state = Standing::State::failed;
-    standing.reason = s.reasons.empty() ? "numerical failure" : s.reasons.front();
+    // The first line says what; its log has the rest.
+    standing.reason =
+        s.reasons.empty() ? "numerical failure" : s.reasons.front().substr(0, s.reasons.front().find('\n'));
     standing.part = s.end_time / run.end_time;
   } else {
     standing.reason = "stopped before its end";

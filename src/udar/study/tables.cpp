@@ -29,10 +29,11 @@ std::string csv_text(const std::string& text) {
 
 std::string csv_number(double value) { return std::isfinite(value) ? shortest(value) : ""; }
 
-/// Names are the user's: a `|` would begin a new column.
+/// Names are the user's: a `|` would begin a new column, an end of line a new row.
 std::string cell(const std::string& text) {
   std::string out;
-  for (const char c : text) {
+  for (const char letter : text) {
+    const char c = letter == '\n' ? ' ' : letter;
     if (c == '|' || c == '<' || c == '`' || c == '\\') out += '\\';
     out += c;
   }
@@ -164,6 +165,11 @@ std::string difference_section(const Study& study, const std::string& along, Est
   return out;
 }
 
+bool any_judged(const Study& study, Estimate StudyQuantity::*of) {
+  return std::any_of(study.quantities.begin(), study.quantities.end(),
+                     [&](const StudyQuantity& q) { return !(q.*of).verdict.empty(); });
+}
+
 std::string comparison_text(const Study& study) {
   std::string text = "Histories and fields: difference of each level from the next finer one, relative to the finest.";
   if (study.comparison.aligned) text += " Histories are laid over each other at first touch.";
@@ -182,15 +188,13 @@ std::string convergence_markdown(const Study& study) {
       "`converged`. {}\n",
       percent(study.tolerance), study.version);
   out += "\n## Runs\n\n" + run_table(study);
-  const bool meshes = study.meshes > 1;
-  const bool steps = study.steps > 1;
-  if (meshes) {
+  if (any_judged(study, &StudyQuantity::mesh)) {
     Direction mesh{&StudyQuantity::mesh, {}};
     for (const double size : study.element_sizes) mesh.levels.push_back(human_text(size, "m", 4));
     out += "\n## Refining the mesh\n\n### Numbers, by the mesh\n\n" + quantity_table(study, mesh);
     out += difference_section(study, "mesh", &StudyDifference::mesh_l2, &StudyDifference::mesh_max);
   }
-  if (steps) {
+  if (any_judged(study, &StudyQuantity::step)) {
     Direction step{&StudyQuantity::step, {}};
     for (int j = 0; j < study.steps; ++j) step.levels.push_back(j == 0 ? "step" : fmt::format("step / {}", 1 << j));
     out += "\n## Refining the time step\n\n### Numbers, by the step\n\n" + quantity_table(study, step);
