@@ -214,7 +214,7 @@ class Convergence(Studies):
             return named(study["histories"], "stop.force_y")["mesh_l2"]["differences"][0]
 
         plain = change()
-        self.assertLess(change("--average", "10 us"), 0.5 * plain)
+        self.assertLess(change("--window", "10 us"), 0.5 * plain)
         self.assertNotEqual(change("--align"), plain)
 
     def test_all_levels_fail(self):
@@ -230,7 +230,7 @@ class Convergence(Studies):
             (["--mesh", "1", "--step", "1"], "one mesh with one step"),
             (["--tolerance", "2"], "between 0 and 1"),
             (["--tolerance", "2 mm"], "--tolerance"),
-            (["--average", "3 m"], "--average"),
+            (["--window", "3 m"], "--window"),
             (["--mesh", "0"], "--mesh"),
             (["--ratio", "1"], "--ratio"),
             (["--set", "bodies.block.mesh.element_size=3 cm"], "element"),

@@ -11,7 +11,7 @@ namespace {
 constexpr const char* converge_footer = R"(Examples:
   udar converge cases/short-beam/short-beam.toml --set bodies.beam.mesh.element_size="1 cm"
   udar converge cases/short-beam/short-beam.toml --mesh 4 --ratio 2 --step 1 --tolerance "5 %"
-  udar converge CASE.toml --show contacts.stop.duration_99 --average "10 us"
+  udar converge CASE.toml --show contacts.stop.duration_99 --window "10 us"
   udar converge CASE.toml --list
 
 The meshes begin with that of the case; each next one has elements smaller by the ratio, in every body. Of each
@@ -32,8 +32,8 @@ ExitCode converge(Arguments& arguments) {
       throw UserError(ExitCode::usage, "--tolerance must be between 0 and 1", "write --tolerance \"2 %\"");
     }
   }
-  if (!arguments.window.empty()) options.window = time_of_option("--average", arguments.window);
-  if (options.window < 0) throw UserError(ExitCode::usage, "--average is negative", "write --average \"10 us\"");
+  if (!arguments.window.empty()) options.window = time_of_option("--window", arguments.window);
+  if (options.window < 0) throw UserError(ExitCode::usage, "--window is negative", "write --window \"10 us\"");
   if (options.levels.meshes * options.levels.steps < 2) {
     throw UserError(ExitCode::usage, "one mesh with one step is no study",
                     "ask for several with `--mesh` or `--step`, or use `udar run`");
@@ -67,7 +67,7 @@ Command add_converge(CLI::App& app) {
   words->add_option("--tolerance", arguments->tolerance, "An error bar up to this is \"converged\"; 2 % by itself")
       ->type_name("PART");
   words->add_flag("--align", arguments->options.aligned, "Lay histories over each other at first touch");
-  words->add_option("--average", arguments->window, "Compare moving averages of the histories over this time")
+  words->add_option("--window", arguments->window, "Compare moving averages of the histories over this time")
       ->type_name("TIME");
   return {words, [arguments] { return converge(*arguments); }, "made"};
 }

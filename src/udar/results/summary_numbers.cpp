@@ -127,6 +127,12 @@ void add_contact(Numbers& numbers, const std::string& name, const ContactSummary
 
 }  // namespace
 
+double first_touch(const Summary& summary) {
+  double first = no_number;
+  for (const auto& [name, contact] : summary.contacts) first = std::fmin(first, contact.first_touch);
+  return first;
+}
+
 bool is_bookkeeping(std::string_view history, std::string_view column) {
   const bool book = history == "energy" || history == "momentum";
   return column == "touching_nodes" || column == "flows" || (book && column.starts_with("error"));

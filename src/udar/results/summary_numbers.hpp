@@ -19,6 +19,9 @@ struct SummaryNumber {
 /// All of them, in the order of summary.json; what does not exist is left out.
 std::vector<SummaryNumber> numbers_of(const Summary& summary);
 
+/// When anything touched first, s; NaN where nothing did.
+double first_touch(const Summary& summary);
+
 /// Counts, flags and errors of the books, which are no results.
 bool is_bookkeeping(std::string_view history, std::string_view column);
 

@@ -39,15 +39,6 @@ fs::path folder_of(const Levels& levels, std::size_t run) {
   return levels.folder / StudyFolder::runs / levels.plan[run].name;
 }
 
-/// The first touch of a run, s; 0 where nothing touched.
-double first_touch(const Standing& standing) {
-  double first = std::numeric_limits<double>::infinity();
-  for (const auto& [name, contact] : standing.summary->contacts) {
-    if (std::isfinite(contact.first_touch)) first = std::min(first, contact.first_touch);
-  }
-  return std::isfinite(first) ? first : 0;
-}
-
 void judge(StudyDifference& d, Norms& mesh, Norms& step, const Levels& levels, double tolerance) {
   const Norms& finest = levels.mesh.is_refined() ? mesh : step;
   d.size = finest.size;
@@ -100,8 +91,12 @@ class HistoryLevels {
     if (a == nullptr || b == nullptr) return {};
     HistoryComparison how{.window = options_.window};
     if (options_.aligned) {
-      how.shift_a = first_touch(levels_.standings[coarse]);
-      how.shift_b = first_touch(levels_.standings[fine]);
+      const double a_touches = first_touch(*levels_.standings[coarse].summary);
+      const double b_touches = first_touch(*levels_.standings[fine].summary);
+      if (std::isfinite(a_touches) && std::isfinite(b_touches)) {
+        how.shift_a = a_touches;
+        how.shift_b = b_touches;
+      }
     }
     return udar::compare_histories({runs_.at(coarse).values.front(), *a}, {runs_.at(fine).values.front(), *b}, how);
   }

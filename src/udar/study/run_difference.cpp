@@ -10,6 +10,7 @@
 
 #include "udar/base/error.hpp"
 #include "udar/base/text.hpp"
+#include "udar/results/summary_numbers.hpp"
 #include "udar/study/history_source.hpp"
 
 namespace udar {
@@ -147,14 +148,20 @@ struct TimeRange {
   }
 };
 
-/// Marks what is far below everything else of its unit.
-void mark_negligible(std::vector<ColumnDifference>& columns) {
+/// Marks what is far below everything else of its unit, or below what the runs could make of it.
+void mark_negligible(std::vector<ColumnDifference>& columns, const HistorySource& a, const HistorySource& b) {
   constexpr double rounding = 1e-9;
   const auto size = [](const ColumnDifference& c) {
     return c.difference.compared() ? std::max(c.difference.size, c.difference.size_of_a) : 0;
   };
   std::map<std::string, double> largest;
   for (const ColumnDifference& c : columns) largest[c.unit] = std::max(largest[c.unit], size(c));
+  for (auto& [unit, scale] : largest) {
+    for (const HistorySource* side : {&a, &b}) {
+      const bool told = side->run() != nullptr && side->run()->summary;
+      if (told) scale = std::max(scale, scale_of_run(*side->run()->summary, unit));
+    }
+  }
   for (ColumnDifference& c : columns) {
     c.negligible = !c.unit.empty() && c.difference.compared() && size(c) <= rounding * largest[c.unit];
   }
@@ -196,7 +203,8 @@ HistorySource open_side(const std::filesystem::path& path, const TableRequest& r
 }
 
 double touch_of(const HistorySource& side) {
-  const double time = side.run() == nullptr ? std::numeric_limits<double>::quiet_NaN() : first_touch_of(*side.run());
+  const bool told = side.run() != nullptr && side.run()->summary;
+  const double time = told ? first_touch(*side.run()->summary) : no_number;
   if (std::isfinite(time)) return time;
   const bool table = side.run() == nullptr;
   refuse(fmt::format("`{}` has no first touch to align at", side.path().string()),
@@ -252,15 +260,6 @@ void compare_run_files(RunDifference& out, const RunFiles& a, const RunFiles& b)
 
 }  // namespace
 
-double first_touch_of(const RunFiles& run) {
-  double first = std::numeric_limits<double>::quiet_NaN();
-  if (!run.summary) return first;
-  for (const auto& [name, contact] : run.summary->contacts) {
-    if (std::isfinite(contact.first_touch)) first = std::fmin(first, contact.first_touch);
-  }
-  return first;
-}
-
 RunDifference compare_runs(const DifferenceRequest& request) {
   const auto [a, b] = open_both(request);
   std::vector<Shared> shared = shared_of(a, b);
@@ -276,7 +275,7 @@ RunDifference compare_runs(const DifferenceRequest& request) {
   how.shift_a = 0;
   how.shift_b = -out.moved;
   compare_columns(out, shared, a, b, how);
-  mark_negligible(out.columns);
+  mark_negligible(out.columns, a, b);
   if (a.run() != nullptr && b.run() != nullptr) compare_run_files(out, *a.run(), *b.run());
   return out;
 }

@@ -55,7 +55,7 @@ struct ColumnDifference {
   std::string unit;
   HistoryDifference difference;
   bool same_bits = false;   ///< the same rows
-  bool negligible = false;  ///< below 1e-9 of the largest of its unit in both: rounding
+  bool negligible = false;  ///< below 1e-9 of others in its unit, or of what the runs could make of it: rounding
 };
 
 /// What is compared with what.
@@ -86,9 +86,6 @@ RunDifference compare_runs(const DifferenceRequest& request);
 
 /// Does the column differ by more than `within`, a part of the rms value of b? Also where that cannot be told.
 bool differs(const ColumnDifference& column, double within);
-
-/// The first touch of a run, s: the earliest of all contacts in its summary; NaN where nothing touched.
-double first_touch_of(const RunFiles& run);
 
 /// Everything as text of a file, one line for each column of the histories.
 std::string to_csv(const RunDifference& difference);
