@@ -1,5 +1,7 @@
 #include "udar/results/summary_numbers.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -84,7 +86,7 @@ void add_history(Numbers& numbers, const std::string& observer, const std::map<s
   for (const auto& [name, h] : columns) {
     if (is_bookkeeping(observer, name)) continue;
     const std::string unit = unit_of_quantity(observer, name);
-    const std::string path = "histories." + observer + "." + name + ".";
+    const std::string path = fmt::format("histories.{}.{}.", observer, name);
     const double scale = scales.at(unit);
     numbers.add(path + "min", unit, h.min, scale);
     numbers.add(path + "max", unit, h.max, scale);
@@ -108,12 +110,14 @@ void add_episode(Numbers& numbers, const std::string& path, const EpisodeSummary
   numbers.add(path + "tangential_restitution", "", e.tangential_restitution);
   numbers.add(path + "slip_velocity_before", "m/s", e.slip_velocity_before);
   numbers.add(path + "slip_velocity_after", "m/s", e.slip_velocity_after);
-  for (const auto& [body, spin] : e.spin_before) numbers.add(path + "spin_before." + body, "kg m^2/s", spin);
-  for (const auto& [body, spin] : e.spin_after) numbers.add(path + "spin_after." + body, "kg m^2/s", spin);
+  for (const auto& [body, spin] : e.spin_before)
+    numbers.add(fmt::format("{}spin_before.{}", path, body), "kg m^2/s", spin);
+  for (const auto& [body, spin] : e.spin_after)
+    numbers.add(fmt::format("{}spin_after.{}", path, body), "kg m^2/s", spin);
 }
 
 void add_contact(Numbers& numbers, const std::string& name, const ContactSummary& c) {
-  const std::string path = "contacts." + name + ".";
+  const std::string path = fmt::format("contacts.{}.", name);
   numbers.add(path + "first_touch", "s", c.first_touch);
   numbers.add(path + "last_separation", "s", c.last_separation);
   numbers.add(path + "duration", "s", c.duration);
@@ -121,7 +125,7 @@ void add_contact(Numbers& numbers, const std::string& name, const ContactSummary
   numbers.add(path + "impulse", "N s", c.impulse);
   numbers.add(path + "peak_force", "N", c.peak_force);
   for (std::size_t k = 0; k < c.episodes.size(); ++k) {
-    add_episode(numbers, path + "episodes." + std::to_string(k) + ".", c.episodes[k]);
+    add_episode(numbers, fmt::format("{}episodes.{}.", path, k), c.episodes[k]);
   }
 }
 

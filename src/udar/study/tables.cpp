@@ -114,13 +114,14 @@ std::string quantity_row(const StudyQuantity& q, const Direction& along) {
   cells.push_back(value(e.extrapolated));
   cells.push_back(number(e.error / unit.size, 2));
   cells.push_back(e.verdict);
+  cells.push_back(e.reason);
   return row(cells);
 }
 
 std::string quantity_table(const Study& study, const Direction& along) {
   std::vector<std::string> titles{"number", "unit"};
   titles.insert(titles.end(), along.levels.begin(), along.levels.end());
-  titles.insert(titles.end(), {"last change", "order", "limit", "error bar", "verdict"});
+  titles.insert(titles.end(), {"last change", "order", "limit", "error bar", "verdict", "why"});
   std::string out = head(titles);
   for (const bool headline : {true, false}) {
     for (const StudyQuantity& q : study.quantities) {
@@ -135,7 +136,7 @@ std::string difference_table(const std::vector<StudyDifference>& all, bool with_
   std::vector<std::string> titles{with_time ? "field" : "history"};
   if (with_time) titles.emplace_back("time");
   titles.insert(titles.end(),
-                {"size (rms)", "changes (rms)", "last change (largest)", "order", "error bar", "verdict"});
+                {"size (rms)", "changes (rms)", "last change (largest)", "order", "error bar", "verdict", "why"});
   std::string out = head(titles);
   for (const StudyDifference& d : all) {
     const Estimate& e = d.*l2;
@@ -145,9 +146,9 @@ std::string difference_table(const std::vector<StudyDifference>& all, bool with_
     std::vector<std::string> cells{cell(d.name)};
     if (with_time) cells.push_back(human_text(d.time, "s", 4));
     const std::vector<double>& largest = (d.*max).differences;
-    cells.insert(cells.end(),
-                 {human_text(d.size, d.unit), fmt::format("{}", fmt::join(changes, " → ")),
-                  largest.empty() ? "–" : percent(largest.back()), number(e.order, 2), percent(e.error), e.verdict});
+    cells.insert(cells.end(), {human_text(d.size, d.unit), fmt::format("{}", fmt::join(changes, " → ")),
+                               largest.empty() ? "–" : percent(largest.back()), number(e.order, 2), percent(e.error),
+                               e.verdict, e.reason});
     out += row(cells);
   }
   return out;
