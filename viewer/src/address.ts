@@ -10,6 +10,7 @@ export function to_address(shown: Readonly<Shown>): string {
     at: [...shown.centre, shown.width].map(short).join(","),
   });
   if (shown.map) words.set("map", shown.map);
+  if (shown.only) words.set("only", shown.only);
   if (shown.follow) words.set("follow", shown.follow);
   if (shown.range !== "run") words.set("range", shown.range === "own" ? `${short(shown.low)},${short(shown.high)}` : shown.range);
   const on = switches.filter((key) => shown[key]);
@@ -25,7 +26,7 @@ export function from_address(text: string, frames: number, nodes: number, elemen
   const numbers = (name: string): number[] => (words.get(name) ?? "").split(",").map(Number);
   const frame = Number(words.get("frame") ?? NaN);
   if (Number.isInteger(frame) && frame >= 0 && frame < frames) shown.frame = frame;
-  for (const key of ["field", "map", "follow"] as const) {
+  for (const key of ["field", "map", "follow", "only"] as const) {
     const word = words.get(key);
     if (word) shown[key] = word;
   }
@@ -56,7 +57,7 @@ export function follow_address(store: Store<Shown>): void {
     history.replaceState(null, "", `#${to_address(store.now)}`);
   };
   const keys = [
-    "frame", "field", "map", "range", "low", "high", "follow", "centre", "width", "picked", ...switches,
+    "frame", "field", "map", "range", "low", "high", "follow", "centre", "width", "picked", "only", ...switches,
   ] as const;
   store.on(keys, () => {
     waiting ||= window.setTimeout(write, 300);

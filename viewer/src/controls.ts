@@ -1,22 +1,24 @@
 // Player and choices below the picture.
 import { maps } from "./colours.ts";
 import type { Field } from "./fields.ts";
-import type { Frames } from "./frames.ts";
 import { choice, h, toggle } from "./html.ts";
 import type { Player } from "./player.ts";
 import type { Shown, Store, Switch } from "./store.ts";
 import { choices, digits, type Units } from "./units.ts";
 import type { View } from "./view.ts";
 
+/** What moves the view. */
+export type Movable = Pick<View, "zoom" | "move" | "follow">;
+
 const button = (id: string, words: string, title: string, press: () => void) =>
   h("button", { type: "button", id, title, "aria-label": /^\w/.test(words) ? undefined : title, onclick: press }, words);
 
 /** Time: buttons, slider, speed. */
-export function player_bar(frames: Frames, store: Store<Shown>, player: Player, units: Units): HTMLElement {
-  const { times } = frames.run;
+export function player_bar(times: number[], store: Store<Shown>, player: Player, units: Units): HTMLElement {
+  const count = times.length;
   const unit = units.for("s", times[times.length - 1] ?? 0);
   const slider = h("input", {
-    type: "range", id: "time", min: "0", max: String(Math.max(0, frames.count - 1)), step: "1", "aria-label": "Time",
+    type: "range", id: "time", min: "0", max: String(Math.max(0, count - 1)), step: "1", "aria-label": "Time",
     oninput: () => player.go(Number(slider.value)),
   });
   const time = h("output", { id: "time-text", for: "time" });
@@ -26,7 +28,7 @@ export function player_bar(frames: Frames, store: Store<Shown>, player: Player, 
     slider.value = String(frame);
     const words = `${digits((times[frame] ?? 0) / unit.size)} ${unit.name}`;
     slider.setAttribute("aria-valuetext", words);
-    time.textContent = `${words}  (${frame + 1} of ${frames.count})`;
+    time.textContent = `${words}  (${frame + 1} of ${count})`;
     play.textContent = playing ? "❚❚" : "▶";
     play.setAttribute("aria-pressed", String(playing));
   };
@@ -40,14 +42,14 @@ export function player_bar(frames: Frames, store: Store<Shown>, player: Player, 
     button("back", "←", "One frame back (left arrow)", () => player.go(store.now.frame - 1)),
     play,
     button("forward", "→", "One frame on (right arrow)", () => player.go(store.now.frame + 1)),
-    button("last", "⇥", "Last frame (End)", () => player.go(frames.count - 1)),
+    button("last", "⇥", "Last frame (End)", () => player.go(count - 1)),
     slider, time, rate.label,
     toggle("loop", "Begin again at the end", store.now.loop, (loop) => store.set({ loop })));
 }
 
 /** Field, range, units, what is drawn with it. */
 export function look_bar(
-  frames: Frames, fields: Field[], store: Store<Shown>, units: Units,
+  fields: Field[], has_forces: boolean, store: Store<Shown>, units: Units, of_all = "of the run",
 ): HTMLElement {
   const now = () => fields.find((f) => f.id === store.now.field) ?? null;
   const field = choice("Field", [["none", "none"], ...fields.map((f) => [f.id, f.label] as const)],
@@ -55,7 +57,7 @@ export function look_bar(
   field.select.id = "field";
   const map = choice("colours", [["", "automatic"], ...Object.entries(maps).map(([id, m]) => [id, m.label] as const)],
     store.now.map, (value) => store.set({ map: value }));
-  const range = choice("Range", [["run", "of the run"], ["frame", "of this frame"], ["own", "my own"]],
+  const range = choice("Range", [["run", of_all], ["frame", "of this frame"], ["own", "my own"]],
     store.now.range, (value) => store.set({ range: value as Shown["range"] }));
   range.select.id = "range";
   const number = (id: string, label: string, key: "low" | "high"): HTMLInputElement => {
@@ -115,16 +117,16 @@ export function look_bar(
       flag("mesh", "mesh", "Edges of the elements (m)"), flag("outline", "outline", "Boundary of the bodies (o)"),
       flag("ghost", "undeformed", "Where the bodies were at first (u)"),
       flag("smooth", "smoothed", "Means at the nodes instead of a value for each element (s)"),
-      frames.run.forces ? flag("forces", "contact forces", "Contact forces as arrows (c)") : null),
+      has_forces ? flag("forces", "contact forces", "Contact forces as arrows (c)") : null),
     h("div", { class: "bar" }, map.label, unit_choice));
 }
 
 /** View: fit, zoom, follow; pictures and films. */
 export function view_bar(
-  frames: Frames, store: Store<Shown>, view: View, fit: () => void,
+  bodies: string[], store: Store<Shown>, view: Movable, fit: () => void,
   picture: () => void, film: () => void,
 ): HTMLElement {
-  const follow = choice("follow", [["", "nothing"], ...frames.run.bodies.slice(0, 500).map((b) => [b.name, b.name] as const)],
+  const follow = choice("follow", [["", "nothing"], ...bodies.slice(0, 500).map((b) => [b, b] as const)],
     store.now.follow, (name) => view.follow(name, store.now.frame));
   follow.select.id = "follow";
   store.on(["follow"], () => (follow.select.value = store.now.follow));
@@ -139,13 +141,13 @@ export function view_bar(
 
 /** Keys of the whole page; those typed into a field of the page stay there. */
 export function listen_to_keys(
-  frames: Frames, store: Store<Shown>, player: Player, view: View, fit: () => void, picture: () => void,
+  frames: number, store: Store<Shown>, player: Player, view: Movable, fit: () => void, picture: () => void,
 ): void {
   const flip = (key: Switch) => () => store.set({ [key]: !store.now[key] });
   const step = (by: number) => () => player.go(store.now.frame + by);
   const keys: Record<string, () => void> = {
     " ": () => player.play(), ArrowLeft: step(-1), ArrowRight: step(1), PageUp: step(-10), PageDown: step(10),
-    Home: () => player.go(0), End: () => player.go(frames.count - 1),
+    Home: () => player.go(0), End: () => player.go(frames - 1),
     "+": () => view.zoom(1.25), "=": () => view.zoom(1.25), "-": () => view.zoom(0.8), f: fit, p: picture,
     m: flip("mesh"), o: flip("outline"), u: flip("ghost"), s: flip("smooth"), c: flip("forces"),
     a: () => view.move(60, 0), d: () => view.move(-60, 0), w: () => view.move(0, 60), x: () => view.move(0, -60),

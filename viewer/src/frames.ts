@@ -110,3 +110,10 @@ export class Frames {
     return out;
   }
 }
+
+/** The frame nearest to a time, s; of two the later one. */
+export function nearest_frame(times: number[], time: number): number {
+  const after = times.findIndex((t) => t >= time);
+  if (after <= 0) return after === 0 ? 0 : times.length - 1;
+  return time - times[after - 1] < times[after] - time ? after - 1 : after;
+}

@@ -3,7 +3,7 @@ import uPlot from "uplot";
 import type { Blocks } from "./blocks.ts";
 import { curves } from "./colours.ts";
 import { h, meaning } from "./html.ts";
-import type { History, Run } from "./run.ts";
+import type { History } from "./run.ts";
 import type { Shown, Store } from "./store.ts";
 import { digits, type Units } from "./units.ts";
 
@@ -11,6 +11,14 @@ import { digits, type Units } from "./units.ts";
 export interface Curve {
   name: string;
   values: Float32Array;
+  times?: Float32Array; // s, where they are not those of the plot
+  colour?: string;
+}
+
+/** The time that is shown. */
+export interface Clock {
+  time(): number; // s
+  end: number | undefined; // of the runs, s
 }
 
 /** Curves of one unit over the same times. */
@@ -21,7 +29,7 @@ export interface PlotData {
   curves: Curve[];
 }
 
-const readable = (name: string): string => name.replace(/_/g, " ");
+export const readable = (name: string): string => name.replace(/_/g, " ");
 
 const title_of = (history: History, group: string): string =>
   history.name === group ? group : `${history.name}: ${group}`;
@@ -82,9 +90,9 @@ export class Plots {
   }, { rootMargin: "200px" });
 
   constructor(
-    private readonly run: Run,
+    private readonly clock: Clock,
     private readonly blocks: Blocks,
-    private readonly store: Store<Shown>,
+    store: Store<Shown>,
     private readonly units: Units,
     private readonly go: (time: number) => void,
   ) {
@@ -93,7 +101,7 @@ export class Plots {
   }
 
   get time(): number {
-    return this.run.times[this.store.now.frame] ?? 0;
+    return this.clock.time();
   }
 
   #each(what: (drawn: Drawn) => void): void {
@@ -120,7 +128,7 @@ export class Plots {
       const place = h("figure", { class: "plot", "data-plot": `${history.name}.${group.title}` },
         h("figcaption", {}, title_of(history, group.title)));
       box.append(place);
-      this.#makers.set(place, () => {
+      this.later(place, () => {
         values ??= this.blocks.values(history.values);
         void values.then((all) => {
           const row = (k: number): Float32Array =>
@@ -133,9 +141,14 @@ export class Plots {
           });
         });
       });
-      this.#sight.observe(place);
     }
     return box;
+  }
+
+  /** Makes what belongs into `place` when it comes into sight. */
+  later(place: HTMLElement, make: () => void): void {
+    this.#makers.set(place, make);
+    this.#sight.observe(place);
   }
 
   /** Fills `place` with a plot. */
@@ -144,10 +157,10 @@ export class Plots {
     const is_something = ({ values }: Curve): boolean => values.some((v) => v !== 0);
     const quiet = all.curves.length > 4 ? all.curves.filter((curve) => !is_something(curve)) : [];
     const data = { ...all, curves: all.curves.filter((curve) => !quiet.includes(curve)) };
-    const colour_of = (curve: Curve): string => curves[all.curves.indexOf(curve) % curves.length];
+    const colour_of = (curve: Curve): string => curve.colour ?? curves[all.curves.indexOf(curve) % curves.length];
     const most = data.curves.reduce((sofar, { values }) => values.reduce((m, v) => Math.max(m, Math.abs(v) || 0), sofar), 0);
     const unit = this.units.for(data.unit, most);
-    const time_unit = this.units.for("s", this.run.summary?.end_time ?? data.times[data.times.length - 1] ?? 0);
+    const time_unit = this.units.for("s", this.clock.end ?? data.times[data.times.length - 1] ?? 0);
     const scaled = (values: Float32Array, size: number): Float64Array => Float64Array.from(values, (v) => v / size);
     // Rounding errors of what is 0 would only confuse.
     const say = (value: number): string => digits(Math.abs(value) < 1e-9 * most ? 0 : value / unit.size);
@@ -182,6 +195,10 @@ export class Plots {
       line_of_time.hidden = !(x >= 0 && x <= plot.over.clientWidth);
       line_of_time.style.transform = `translateX(${x}px)`;
     };
+    const times_of = (curve: Curve): Float32Array => curve.times ?? data.times;
+    const aligned: uPlot.AlignedData = data.curves.some(({ times }) => times)
+      ? uPlot.join(data.curves.map((c) => [scaled(times_of(c), time_unit.size), scaled(c.values, unit.size)]))
+      : [scaled(data.times, time_unit.size), ...data.curves.map((c) => scaled(c.values, unit.size))];
     const plot = new uPlot(
       {
         width: element.clientWidth || 400,
@@ -193,7 +210,7 @@ export class Plots {
         series: [{}, ...data.curves.map((curve) => ({ stroke: colour_of(curve), width: 1.5, spanGaps: false }))],
         hooks: { draw: [(self) => mark_time(self)] },
       },
-      [scaled(data.times, time_unit.size), ...data.curves.map((c) => scaled(c.values, unit.size))],
+      aligned,
       element,
     );
     element.append(h("span", { class: "axis-unit" }, time_unit.name));
@@ -203,7 +220,7 @@ export class Plots {
     });
     const update = (): void => {
       cells.forEach((cell, k) => {
-        cell.textContent = say(at_time(data.times, data.curves[k].values, this.time));
+        cell.textContent = say(at_time(times_of(data.curves[k]), data.curves[k].values, this.time));
       });
       mark_time(plot);
     };

@@ -1,4 +1,5 @@
 // What report.html says of a run: docs/report-format.md.
+import type { StudyData } from "./study.ts";
 
 /** A table of whole numbers in a block; docs/report-format.md, "Arrays". */
 export interface ArrayRef {
@@ -123,11 +124,11 @@ export interface Run {
   left_out: string[];
 }
 
-/** The run in this page. Throws where there is none, or one that a newer program wrote. */
-export function read_run(page: Document): Run {
+/** What this page holds: a run, or several of a study. Throws where there is nothing, or what a newer program wrote. */
+export function read_page(page: Document): Run | StudyData {
   const text = page.getElementById("run")?.textContent;
   if (!text) throw new Error("this page holds no run");
-  const run = JSON.parse(text) as Run;
-  if (run.format !== 1) throw new Error(`this page has data of format ${run.format}, and its viewer knows format 1`);
-  return run;
+  const data = JSON.parse(text) as Run | StudyData;
+  if (data.format !== 1) throw new Error(`this page has data of format ${data.format}, and its viewer knows format 1`);
+  return data;
 }

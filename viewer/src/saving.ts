@@ -1,7 +1,11 @@
 // The picture and the film of what is seen, as files.
 import { h } from "./html.ts";
-import type { Stage } from "./stage.ts";
 import type { Shown, Store } from "./store.ts";
+
+/** What puts its picture on a canvas, with `least_ratio` px or more for one of the page. */
+export interface Composed {
+  compose(canvas: HTMLCanvasElement, least_ratio: number): void;
+}
 
 export function save(blob: Blob, name: string): void {
   const address = URL.createObjectURL(blob);
@@ -10,7 +14,7 @@ export function save(blob: Blob, name: string): void {
   setTimeout(() => URL.revokeObjectURL(address), 10_000);
 }
 
-export function save_picture(stage: Stage, name: string): Promise<void> {
+export function save_picture(stage: Composed, name: string): Promise<void> {
   const canvas = h("canvas");
   stage.compose(canvas, 2);
   return new Promise((done) =>
@@ -29,7 +33,7 @@ const kinds = [
 /** Films the frames from the first to the last at the rate of the player; `bring` draws a frame, `tell` hears how far
  *  it is. `stop` ends it early; what there is by then is saved. Throws where the browser records no film. */
 export async function save_film(
-  stage: Stage,
+  stage: Composed,
   store: Store<Shown>,
   frames: number,
   name: string,

@@ -6,16 +6,26 @@ import { real_values } from "./arrays.ts";
 import type { Forces, Stage } from "./stage.ts";
 import type { Shown, Store } from "./store.ts";
 
+export type Range = [low: number, high: number];
+
+/** Where colours of several runs stand for the same: ranges over all of them. */
+export interface CommonRanges {
+  of_all(field: Field): Promise<Range>;
+  /** Takes the range of what one run shows now. */
+  of_now(field: Field, own: Range): Range;
+}
+
 export class Show {
   #turn = 0; // counts what was asked for; what comes too late is dropped
-  readonly #ranges = new Map<string, [number, number]>(); // of the run, by field
+  readonly #ranges = new Map<string, Range>(); // of the run, by field
 
   constructor(
     private readonly frames: Frames,
-    private readonly fields: Field[],
+    readonly all_fields: Field[],
     private readonly store: Store<Shown>,
     private readonly stage: Stage,
     private readonly tell: (drawn: boolean) => void,
+    private readonly common?: CommonRanges,
   ) {
     store.on(["frame", "field", "smooth", "range", "forces"], () => void this.refresh());
     store.on(["centre", "width", "follow", "picked", "units", "theme"], () => stage.repaint());
@@ -23,7 +33,7 @@ export class Show {
   }
 
   get field(): Field | null {
-    return this.fields.find((f) => f.id === this.store.now.field) ?? null;
+    return this.all_fields.find((f) => f.id === this.store.now.field) ?? null;
   }
 
   #needs(field: Field | null): string[] {
@@ -44,7 +54,7 @@ export class Show {
         if (turn !== this.#turn) return;
       }
       const pushes = forces ? await this.#forces(frame) : null;
-      const of_run = field && range === "run" ? await this.#run_range(field) : null;
+      const of_run = field && range === "run" ? await (this.common?.of_all(field) ?? this.run_range(field)) : null;
       if (turn !== this.#turn) return;
       if (!this.frames.ready(frame, needs)) await this.frames.load(frame, needs); // dropped meanwhile
       if (turn !== this.#turn) return;
@@ -56,7 +66,7 @@ export class Show {
     }
   }
 
-  #draw(frame: number, field: Field | null, forces: Forces | null, of_run: [number, number] | null): void {
+  #draw(frame: number, field: Field | null, forces: Forces | null, of_run: Range | null): void {
     const { store, stage, frames } = this;
     const places = frames.places(frame);
     stage.scene?.set_places(places);
@@ -66,8 +76,10 @@ export class Show {
       const drawn = field.on === "nodes" || !by_node ? values : node_means(frames.corners, values, frames.run.nodes);
       if (field.on === "nodes" && !store.now.smooth) stage.scene?.set_values(this.#element_means(values), false);
       else stage.scene?.set_values(drawn, by_node);
-      const now = store.now.range === "frame" ? usual_range([values], field.signed) : of_run;
+      const now = store.now.range === "frame" ? this.#range_now(field, values) : of_run;
       if (now) store.set({ low: now[0], high: now[1] });
+    } else {
+      stage.scene?.set_values(new Float32Array(frames.run.elements), false);
     }
     const { low, high } = store.now;
     stage.drawn = {
@@ -81,6 +93,11 @@ export class Show {
       forces,
     };
     stage.repaint();
+  }
+
+  #range_now(field: Field, values: Float32Array): Range {
+    const own = usual_range([values], field.signed);
+    return this.common?.of_now(field, own) ?? own;
   }
 
   /** A value of nodes as one of elements. */
@@ -114,7 +131,7 @@ export class Show {
   }
 
   /** The range of a field over the run, from some of its frames. */
-  async #run_range(field: Field): Promise<[number, number]> {
+  async run_range(field: Field): Promise<Range> {
     const known = this.#ranges.get(field.id);
     if (known) return known;
     // One chunk after the other, each once: the quantities of one are at hand together.

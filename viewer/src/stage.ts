@@ -20,14 +20,18 @@ export interface Forces {
   largest: number; // N, of the whole run
 }
 
+/** Do values lie beyond the range? */
+export interface Beyond {
+  below: boolean;
+  above: boolean;
+}
+
 /** What is drawn: the frame that has come, not the one asked for last. */
-export interface Drawn {
+export interface Drawn extends Beyond {
   frame: number;
   places: Float32Array;
   field: Field | null;
   values: Float32Array | null;
-  below: boolean; // values beyond the range
-  above: boolean;
   forces: Forces | null;
 }
 
@@ -61,6 +65,7 @@ export class Stage {
     private readonly store: Store<Shown>,
     private readonly view: View,
     private readonly units: Units,
+    private readonly title = frames.run.case_name,
   ) {
     root.prepend(this.#under, this.#bodies, this.#over);
     try {
@@ -131,7 +136,7 @@ export class Stage {
       map: this.map(drawn.field),
       low,
       high,
-      is_flag: drawn.field?.flag ?? false,
+      is_flag: drawn.field?.flag ?? !drawn.field,
       mesh: mesh ? 0.4 * fade : 0,
       none: colour(paints.none),
       plain: colour(paints.body),
@@ -204,7 +209,7 @@ export class Stage {
   }
 
   /** The colour bar of what is drawn; none for a field of yes and no. */
-  bar(): Bar | null {
+  bar(beyond: Beyond = this.drawn ?? { below: false, above: false }): Bar | null {
     const { drawn } = this;
     if (!drawn?.field || drawn.field.flag) return null;
     const { low, high } = this.store.now;
@@ -215,25 +220,25 @@ export class Stage {
       low: low / unit.size,
       high: high / unit.size,
       map: this.map(drawn.field),
-      below: drawn.below,
-      above: drawn.above,
+      below: beyond.below,
+      above: beyond.above,
     };
   }
 
-  /** The colour bar on a canvas of its own. */
-  paint_bar(canvas: HTMLCanvasElement): void {
+  /** The colour bar on a canvas of its own; `beyond` where others have the same bar. */
+  paint_bar(canvas: HTMLCanvasElement, beyond?: Beyond): void {
     const width = canvas.clientWidth;
     canvas.width = Math.round(width * devicePixelRatio);
     canvas.height = Math.round(50 * devicePixelRatio);
     const context = canvas.getContext("2d")!;
     context.scale(devicePixelRatio, devicePixelRatio);
-    this.#draw_key(context, 2, width - 32);
+    this.#draw_key(context, 2, width - 32, beyond);
   }
 
   /** The colour bar, or what the two colours of a yes or no mean. */
-  #draw_key(context: Canvas, top: number, width: number): void {
+  #draw_key(context: Canvas, top: number, width: number, beyond?: Beyond): void {
     const paints = paints_of(this.root);
-    const bar = this.bar();
+    const bar = this.bar(beyond);
     if (bar) draw_bar(context, 16, top, width, bar, paints);
     else if (this.drawn?.field?.flag) this.#key(context, 16, [["flows now", paints.flows], ["has flowed", paints.flowed], ["never flowed", paints.body]], paints);
   }
@@ -270,7 +275,7 @@ export class Stage {
     context.scale(ratio, ratio);
     context.fillStyle = paints.ink;
     context.font = font(15, "600");
-    context.fillText(this.frames.run.case_name, 14, 23, clientWidth / 2);
+    context.fillText(this.title, 14, 23, clientWidth / 2);
     context.font = font(14);
     context.textAlign = "right";
     context.fillText(this.time_text(), clientWidth - 14, 23);

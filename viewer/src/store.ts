@@ -42,5 +42,6 @@ export interface Shown extends Record<Switch, boolean> {
   width: number; // m, of the view
   picked: Picked | null;
   units: number; // counts choices of units
+  only: string; // of a study: the one run that is shown, or ""
   theme: "" | "light" | "dark";
 }

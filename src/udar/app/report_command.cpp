@@ -10,7 +10,9 @@
 #include "udar/app/terminal.hpp"
 #include "udar/report/field.hpp"
 #include "udar/report/report.hpp"
+#include "udar/report/study_page.hpp"
 #include "udar/results/file.hpp"
+#include "udar/results/study.hpp"
 
 namespace udar {
 namespace {
@@ -72,7 +74,8 @@ ExitCode report_run(const ReportArguments& arguments) {
   constexpr std::size_t largest_page = 1 << 26;
   const std::string page = arguments.page.empty() ? "" : read_file(arguments.page, largest_page);
   options.page = page;
-  const ReportInfo info = write_report(arguments.run, options);
+  const bool is_study = is_study_folder(arguments.run);
+  const ReportInfo info = is_study ? write_study_page(arguments.run, options) : write_report(arguments.run, options);
   say("{}: {}, {}\n", info.path.string(), in_units(static_cast<double>(info.bytes), "B"),
       counted(static_cast<long long>(info.frames), "frame"));
   for (const std::string& sentence : info.left_out) say("  {}\n", sentence);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "udar/base/error.hpp"
+#include "udar/results/file.hpp"
 
 namespace udar {
 namespace {
@@ -18,6 +19,11 @@ std::size_t block_bytes(std::size_t text_bytes) {
   return text_bytes + block_begin.size() + digits + block_middle.size() + element_end.size();
 }
 
+std::size_t Blocks::bytes_of(std::size_t block) const {
+  return texts_[block].size() + block_begin.size() + std::to_string(block).size() + block_middle.size() +
+         element_end.size();
+}
+
 Json Blocks::add(PackedArray array) {
   Json out{{"block", texts_.size()}, {"rows", array.rows}, {"columns", array.columns}, {"bytes", array.bytes}};
   if (array.is_float) out["float"] = true;
@@ -26,13 +32,13 @@ Json Blocks::add(PackedArray array) {
     out["step"] = array.step;
   }
   if (array.none) out["none"] = *array.none;
-  bytes_ += block_bytes(array.text.size());
   texts_.push_back(std::move(array.text));
+  bytes_ += bytes_of(texts_.size() - 1);
   return out;
 }
 
 void Blocks::cut(std::size_t count) {
-  for (; texts_.size() > count; texts_.pop_back()) bytes_ -= block_bytes(texts_.back().size());
+  for (; texts_.size() > count; texts_.pop_back()) bytes_ -= bytes_of(texts_.size() - 1);
 }
 
 std::string safe_json(const Json& json) {
@@ -76,5 +82,25 @@ void compose(std::string_view page, std::string_view run, const Blocks& blocks,
   }
   take(page.substr(at + place.size()));
 }
+
+std::size_t page_bytes(std::string_view page) {
+  std::size_t bytes = 0;
+  compose(page, "", {}, [&](std::string_view piece) { bytes += piece.size(); });
+  return bytes;
+}
+
+std::size_t write_page(const std::filesystem::path& path, std::string_view page, std::string_view run,
+                       const Blocks& blocks) {
+  std::size_t bytes = 0;
+  FileReplacement file(path);
+  compose(page, run, blocks, [&](std::string_view piece) {
+    file.write(piece);
+    bytes += piece.size();
+  });
+  file.commit();
+  return bytes;
+}
+
+std::string megabytes(std::size_t bytes) { return fmt::format("{:.3g} MB", 1e-6 * static_cast<double>(bytes)); }
 
 }  // namespace udar

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -25,11 +26,13 @@ class Blocks {
   [[nodiscard]] const std::vector<std::string>& texts() const { return texts_; }
 
  private:
+  [[nodiscard]] std::size_t bytes_of(std::size_t block) const;
+
   std::vector<std::string> texts_;
   std::size_t bytes_ = 0;
 };
 
-/// Bytes of an element that holds so many.
+/// Bytes of an element that holds so many, whichever number it gets.
 std::size_t block_bytes(std::size_t text_bytes);
 
 /// JSON as it may stand in a script element: no name that a user chose can end it.
@@ -39,5 +42,13 @@ std::string safe_json(const Json& json);
 /// `page` has no place for a run, or several.
 void compose(std::string_view page, std::string_view run, const Blocks& blocks,
              const std::function<void(std::string_view)>& take);
+/// Bytes of a file that holds nothing: what `page` itself takes. Throws as `compose`.
+std::size_t page_bytes(std::string_view page);
+/// Writes the file, all or nothing; gives its bytes. Throws OutputError.
+std::size_t write_page(const std::filesystem::path& path, std::string_view page, std::string_view run,
+                       const Blocks& blocks);
+
+/// "25 MB".
+std::string megabytes(std::size_t bytes);
 
 }  // namespace udar

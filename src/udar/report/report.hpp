@@ -29,6 +29,8 @@ struct ReportInfo {
 
 /// The page that shows a run; empty where the program was built without it.
 std::string_view viewer_page();
+/// The page that the options ask for, or the one built in. Throws UserError where there is none.
+std::string_view page_to_fill(const ReportOptions& options);
 
 /// Turns a run folder into one file that shows it, all or nothing. What the folder lacks is not in it. Throws UserError
 /// where the folder is none of a run, a field has another name, or nothing fits into the limit; OutputError where the
