@@ -57,6 +57,7 @@ export function look_bar(
   field.select.id = "field";
   const map = choice("colours", [["", "automatic"], ...Object.entries(maps).map(([id, m]) => [id, m.label] as const)],
     store.now.map, (value) => store.set({ map: value }));
+  map.select.id = "map";
   const range = choice("Range", [["run", of_all], ["frame", "of this frame"], ["own", "my own"]],
     store.now.range, (value) => store.set({ range: value as Shown["range"] }));
   range.select.id = "range";

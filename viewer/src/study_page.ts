@@ -39,7 +39,8 @@ function headlines(study: Study): HTMLElement | null {
     const words = line.replaceAll("+-", "±");
     const at = words.indexOf(" = ");
     if (at < 0) return h("p", {}, h("span", { class: "much" }, words));
-    const [much, ...bars] = words.slice(at + 3).split(/\s+(?=±)/);
+    const [, much, rest] = /^(.*?)((?:\s*±|\s*[:;,(]\s).*|\s\(.*|)$/.exec(words.slice(at + 3))!;
+    const bars = rest.replace(/^[:;,]\s*/, "").trim().split(/\s+(?=±)/).filter((bar) => bar);
     return h("p", {}, h("span", { class: "what" }, words.slice(0, at)), h("span", { class: "much" }, much),
       ...bars.map((bar) => h("span", { class: "bar-of" }, bar)));
   }));

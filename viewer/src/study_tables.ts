@@ -7,8 +7,14 @@ import {
 } from "./study.ts";
 import { digits, with_unit, type Units } from "./units.ts";
 
-const cell_head = (words: string, title?: string) => h("th", { scope: "col", title }, words);
-const percent = (part: Value, count = 3): string => (part === null ? "–" : `${digits(100 * part, count)} %`);
+const in_words = new Set(["name", "run", "unit", "state", "verdict"]);
+const cell_head = (words: string, title?: string) =>
+  h("th", { scope: "col", title, class: in_words.has(words) ? "words" : undefined }, words);
+function percent(part: Value, count = 3): string {
+  if (part === null) return "–";
+  const all = 100 * part;
+  return all > 1000 ? "> 1000 %" : `${all >= 10 ? String(Math.round(all)) : digits(all, count)} %`;
+}
 
 /** A table that can be scrolled. */
 function scrolled(caption: string, ...inside: (Node | null)[]): HTMLElement {
@@ -170,7 +176,7 @@ export class StudyTables {
       ...levels.map(({ label }) => cell_head(label)), ...ends));
     const most = 400;
     const rows = quantities.slice(0, most).map((quantity) => this.#row(quantity, levels, bare));
-    return h("div", {}, scrolled(caption, h("caption", {}, caption), head, h("tbody", {}, ...rows)),
+    return h("div", {}, scrolled(caption, caption === "Headlines" ? h("caption", {}, caption) : null, head, h("tbody", {}, ...rows)),
       quantities.length > most ? h("p", { class: "left-out" }, `The first ${most} of ${quantities.length}; look for a name above, or in study.csv.`) : null);
   }
 
