@@ -11,6 +11,7 @@
 #include "udar/report/field.hpp"
 #include "udar/report/report.hpp"
 #include "udar/report/study_page.hpp"
+#include "udar/report/study_plots.hpp"
 #include "udar/results/file.hpp"
 #include "udar/results/study.hpp"
 
@@ -22,10 +23,12 @@ constexpr const char* footer = R"(Examples:
   udar report runs/short-beam --limit "5 MB" --output short-beam.html
   udar report runs/short-beam --fields plastic_strain,principal_1 --frames 50
 
-`udar run` makes the same file by itself; this is for old runs and other choices.)";
+`udar run` makes the same file by itself; this is for old runs and other choices.
+Of a study it makes study.html, which shows its runs beside each other, and the plots anew:
+  udar report studies/short-beam)";
 
 struct ReportArguments {
-  std::string run;                  ///< folder
+  std::string run;                  ///< folder, also of a study
   std::string output;               ///< empty: report.html in it
   std::string limit = "25 MB";      ///< of the file
   std::vector<std::string> fields;  ///< empty: all
@@ -79,16 +82,21 @@ ExitCode report_run(const ReportArguments& arguments) {
   say("{}: {}, {}\n", info.path.string(), in_units(static_cast<double>(info.bytes), "B"),
       counted(static_cast<long long>(info.frames), "frame"));
   for (const std::string& sentence : info.left_out) say("  {}\n", sentence);
+  if (is_study) {
+    const auto plots = static_cast<long long>(write_study_plots(arguments.run).size());
+    say("{}: {}\n", (std::filesystem::path(arguments.run) / StudyFolder::plots).string(), counted(plots, "plot"));
+  }
   return ExitCode::done;
 }
 
 }  // namespace
 
 Command add_report(CLI::App& app) {
-  CLI::App* words = app.add_subcommand("report", "Make report.html of a run: one file that shows it in a browser");
+  CLI::App* words = app.add_subcommand(
+      "report", "Make report.html of a run, or study.html of a study: one file that shows it in a browser");
   words->footer(footer);
   const auto arguments = std::make_shared<ReportArguments>();
-  words->add_option("RUN", arguments->run, "Folder of a run")->required()->type_name("");
+  words->add_option("RUN", arguments->run, "Folder of a run or of a study")->required()->type_name("");
   words->add_option("--limit", arguments->limit, "Size of the file at most; a plain number is in MB")
       ->type_name("SIZE")
       ->capture_default_str();
@@ -98,7 +106,7 @@ Command add_report(CLI::App& app) {
   words->add_option("--frames", arguments->frames, "At most so many frames, 2 or more: every k-th of those there are")
       ->type_name("N")
       ->check(CLI::Range(2, 1'000'000).description(""));
-  words->add_option("--output", arguments->output, "File to write; else report.html in the folder of the run")
+  words->add_option("--output", arguments->output, "File to write; else report.html or study.html in the folder")
       ->type_name("FILE");
   // For those who work on the viewer.
   words->add_option("--template", arguments->page, "")->group("");

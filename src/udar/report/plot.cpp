@@ -31,25 +31,31 @@ std::string dash_of(const PlotCurve& curve) {
   return dash.empty() ? "" : fmt::format(R"( stroke-dasharray="{}")", dash);
 }
 
+/// Numbers along one side of a panel.
+struct Scale {
+  HumanUnit unit;
+  Ticks ticks;
+  double low = 0;  // in that unit
+  double high = 1;
+  bool logarithmic = false;
+
+  /// Where a value stands, 0 at the low end, 1 at the high one.
+  [[nodiscard]] double part(double si) const {
+    const double value = si / unit.size;
+    if (logarithmic) return value > 0 ? std::log(value / low) / std::log(high / low) : std::nan("");
+    return (value - low) / (high - low);
+  }
+};
+
 /// Axes of one panel: numbers to px.
 struct Axes {
   double top = 0;     // px
   double bottom = 0;  // px
-  HumanUnit time;
-  HumanUnit unit;
-  Ticks times;
-  Ticks values;
-  double from = 0;  // in units of time
-  double to = 1;
+  Scale across;
+  Scale up;
 
-  [[nodiscard]] double x(double seconds) const {
-    return left + (seconds / time.size - from) / (to - from) * (right - left);
-  }
-  [[nodiscard]] double y(double value) const {
-    const double low = values.values.front();
-    const double high = values.values.back();
-    return bottom - (value / unit.size - low) / (high - low) * (bottom - top);
-  }
+  [[nodiscard]] double x(double si) const { return left + across.part(si) * (right - left); }
+  [[nodiscard]] double y(double si) const { return bottom - up.part(si) * (bottom - top); }
 };
 
 /// A value with as many decimals as give `largest` four digits, and a true minus sign.
@@ -60,45 +66,88 @@ std::string number(double value, double largest) {
   return zero ? "0" : value < 0 ? "−" + text : text;
 }
 
-Axes axes_of(const Plot& plot, const PlotPanel& panel, double top, double height) {
+/// Least and largest of what a panel shows, with error bars; only positive numbers where the axis is logarithmic.
+std::array<double, 2> range_of(const PlotPanel& panel) {
   double low = 0;
   double high = 0;
   bool any = false;
-  for (const PlotCurve& curve : panel.curves) {
-    const CurveExtremes extremes = extremes_of(curve);
-    if (!extremes.any) continue;
-    low = any ? std::min(low, curve.values[extremes.least]) : curve.values[extremes.least];
-    high = any ? std::max(high, curve.values[extremes.most]) : curve.values[extremes.most];
+  const auto take = [&](double value) {
+    if (!std::isfinite(value) || (panel.logarithmic && value <= 0)) return;
+    low = any ? std::min(low, value) : value;
+    high = any ? std::max(high, value) : value;
     any = true;
+  };
+  for (const PlotCurve& curve : panel.curves) {
+    for (std::size_t i = 0; i < curve.values.size(); ++i) {
+      take(curve.values[i]);
+      if (i >= curve.errors.size()) continue;
+      take(curve.values[i] - curve.errors[i]);
+      take(curve.values[i] + curve.errors[i]);
+    }
   }
-  Axes axes{.top = top, .bottom = top + height};
-  axes.time = human_unit("s", std::max(std::fabs(plot.from), std::fabs(plot.to)));
-  axes.unit = human_unit(panel.unit, std::max(std::fabs(low), std::fabs(high)));
-  axes.from = plot.from / axes.time.size;
-  axes.to = plot.to / axes.time.size;
-  axes.times = ticks_within(axes.from, axes.to, 10);
-  axes.values = ticks_over(low / axes.unit.size, high / axes.unit.size, height > 300 ? 7 : 5);
-  return axes;
+  if (!any && panel.logarithmic) return {1, 10};
+  return {low, high};
 }
 
-void draw_axes(Svg& svg, const Axes& axes, const PlotPanel& panel, bool lowest) {
-  for (const double v : axes.values.values) {
-    const double y = axes.y(v * axes.unit.size);
-    const bool zero = std::fabs(v) < 1e-9 * axes.values.step;
+Scale scale_across(const Plot& plot) {
+  Scale scale;
+  scale.logarithmic = plot.axis.logarithmic;
+  scale.unit = human_unit(plot.axis.unit, std::max(std::fabs(plot.from), std::fabs(plot.to)));
+  scale.low = plot.from / scale.unit.size;
+  scale.high = plot.to / scale.unit.size;
+  if (scale.logarithmic) {
+    scale.ticks = log_ticks_over(scale.low, scale.high);
+    std::erase_if(scale.ticks.values, [&](double v) { return v < scale.low || v > scale.high; });
+  } else if (!plot.axis.names.empty()) {
+    for (std::size_t n = 0; n < plot.axis.names.size(); ++n) scale.ticks.values.push_back(static_cast<double>(n));
+  } else {
+    scale.ticks = ticks_within(scale.low, scale.high, 10);
+  }
+  return scale;
+}
+
+Scale scale_up(const PlotPanel& panel, double height) {
+  const auto [low, high] = range_of(panel);
+  Scale scale;
+  scale.logarithmic = panel.logarithmic;
+  scale.unit = human_unit(panel.unit, std::max(std::fabs(low), std::fabs(high)));
+  scale.ticks = panel.logarithmic ? log_ticks_over(low / scale.unit.size, high / scale.unit.size)
+                                  : ticks_over(low / scale.unit.size, high / scale.unit.size, height > 300 ? 7 : 5);
+  scale.low = scale.ticks.values.front();
+  scale.high = scale.ticks.values.back();
+  return scale;
+}
+
+Axes axes_of(const Plot& plot, const PlotPanel& panel, double top, double height) {
+  return {.top = top, .bottom = top + height, .across = scale_across(plot), .up = scale_up(panel, height)};
+}
+
+std::string with_unit(const std::string& words, const HumanUnit& unit) {
+  return words + (unit.name.empty() ? "" : " [" + unit.name + "]");
+}
+
+void draw_axes(Svg& svg, const Axes& axes, const Plot& plot, const PlotPanel& panel, bool lowest) {
+  const Scale& up = axes.up;
+  for (const double v : up.ticks.values) {
+    const double y = axes.y(v * up.unit.size);
+    const bool zero = !up.logarithmic && std::fabs(v) < 1e-9 * up.ticks.step;
     svg.add(R"(<path d="M{:.1f} {:.1f}H{:.1f}" stroke="{}" stroke-width="{}"/>)", left, y, right,
             zero ? "#8a949e" : "#dde2e7", zero ? 1.2 : 1.0);
-    svg.text({left - 9, y + 5}, axes.values.text(v), "end");
+    svg.text({left - 9, y + 5}, up.ticks.text(v), "end");
   }
-  for (const double t : axes.times.values) {
-    const double x = axes.x(t * axes.time.size);
+  const Scale& across = axes.across;
+  const std::vector<std::string>& names = plot.axis.names;
+  for (std::size_t n = 0; n < across.ticks.values.size(); ++n) {
+    const double t = across.ticks.values[n];
+    const double x = axes.x(t * across.unit.size);
     svg.add(R"(<path d="M{0:.1f} {1:.1f}V{2:.1f}" stroke="#dde2e7"/><path d="M{0:.1f} {2:.1f}v5" stroke="{3}"/>)", x,
             axes.top, axes.bottom, picture_ink);
-    if (lowest) svg.text({x, axes.bottom + 21}, axes.times.text(t), "middle");
+    if (lowest) svg.text({x, axes.bottom + 21}, names.empty() ? across.ticks.text(t) : names[n], "middle");
   }
   svg.add(R"(<path d="M{:.1f} {:.1f}V{:.1f}H{:.1f}" fill="none" stroke="{}" stroke-width="1.2"/>)", left, axes.top,
           axes.bottom, right, picture_ink);
-  if (lowest) svg.text({0.5 * (left + right), axes.bottom + 44}, "time [" + axes.time.name + "]", "middle");
-  const std::string label = panel.caption + (axes.unit.name.empty() ? "" : " [" + axes.unit.name + "]");
+  if (lowest) svg.text({0.5 * (left + right), axes.bottom + 44}, with_unit(plot.axis.label, across.unit), "middle");
+  const std::string label = with_unit(panel.caption, up.unit);
   const double middle = 0.5 * (axes.top + axes.bottom);
   svg.text({22, middle}, label, "middle", fmt::format(R"svg(transform="rotate(-90 22 {:.1f})")svg", middle));
 }
@@ -149,17 +198,39 @@ void draw_extremes(Svg& svg, const Axes& axes, const PlotCurve& curve) {
   }
 }
 
-/// One row of the table: line, name, largest, smallest, last.
-void draw_row(Svg& svg, const Axes& axes, const PlotCurve& curve, double y) {
+void draw_markers(Svg& svg, const Axes& axes, const PlotCurve& curve) {
+  for (std::size_t i = 0; i < curve.values.size(); ++i) {
+    const double x = axes.x(curve.times[i]);
+    const double y = axes.y(curve.values[i]);
+    if (!std::isfinite(y)) continue;
+    if (i < curve.errors.size() && std::isfinite(curve.errors[i])) {
+      const double high = axes.y(curve.values[i] + curve.errors[i]);
+      double low = axes.y(curve.values[i] - curve.errors[i]);
+      if (!std::isfinite(low)) low = axes.bottom;  // a bar that reaches 0 on a logarithmic axis
+      svg.add(
+          R"(<path d="M{0:.1f} {1:.1f}V{2:.1f}M{3:.1f} {1:.1f}h10M{3:.1f} {2:.1f}h10" stroke="{4}" stroke-width="1.4"/>)",
+          x, high, low, x - 5, colour_of(curve));
+    }
+    if (curve.markers) {
+      svg.add(R"(<circle cx="{:.1f}" cy="{:.1f}" r="4.5" fill="{}" stroke="#ffffff" stroke-width="1.2"/>)", x, y,
+              colour_of(curve));
+    }
+  }
+}
+
+/// One row of the table: line, name and, where asked for, largest, smallest, last.
+void draw_row(Svg& svg, const Axes& axes, const PlotCurve& curve, double y, bool with_extremes) {
   svg.add(R"(<path d="M{:.1f} {:.1f}h30" stroke="{}" stroke-width="2.4"{}/>)", left, y - 5, colour_of(curve),
           dash_of(curve));
-  const double room = largest_column - left - 40 - 90;
+  const double room = (with_extremes ? largest_column - 90 : right) - left - 40;
   const double letters = std::min(picture_font_size, room / std::max(1.0, text_width(curve.name, 1)));
   svg.text({left + 40, y}, curve.name, "start", fmt::format(R"(font-size="{:.1f}")", letters));
   const CurveExtremes extremes = extremes_of(curve);
-  if (!extremes.any) return;
+  if (!extremes.any || !with_extremes) return;
   const double size = std::max(std::fabs(curve.values[extremes.least]), std::fabs(curve.values[extremes.most]));
-  const auto value = [&](std::size_t at) { return number(curve.values[at] / axes.unit.size, size / axes.unit.size); };
+  const auto value = [&](std::size_t at) {
+    return number(curve.values[at] / axes.up.unit.size, size / axes.up.unit.size);
+  };
   const auto with_time = [&](std::size_t at) { return value(at) + " at " + human_text(curve.times[at], "s", 4); };
   svg.text({largest_column + 70, y}, with_time(extremes.most), "end");
   svg.text({smallest_column + 70, y}, with_time(extremes.least), "end");
@@ -187,20 +258,27 @@ std::string to_svg(const Plot& plot) {
   svg.text({28, 38}, plot.title, "start", fmt::format(R"(font-size="{:.1f}" font-weight="bold")", title_size));
   svg.text({28, 60}, plot.subtitle, "start", fmt::format(R"(fill="{}")", picture_grey));
   double y = plot.subtitle.empty() ? 68 : 90;
-  const auto grey = fmt::format(R"(fill="{}")", picture_grey);
-  svg.text({largest_column + 70, y}, "largest", "end", grey);
-  svg.text({smallest_column + 70, y}, "smallest", "end", grey);
-  svg.text({last_column + 70, y}, "at the end", "end", grey);
+  if (plot.extremes) {
+    const auto grey = fmt::format(R"(fill="{}")", picture_grey);
+    svg.text({largest_column + 70, y}, "largest", "end", grey);
+    svg.text({smallest_column + 70, y}, "smallest", "end", grey);
+    svg.text({last_column + 70, y}, "at the end", "end", grey);
+  } else {
+    y -= 0.5 * row_height;
+  }
   for (std::size_t p = 0; p < plot.panels.size(); ++p) {
     const PlotPanel& panel = plot.panels[p];
     const double table = row_height * static_cast<double>(panel.curves.size());
     const Axes axes = axes_of(plot, panel, y + table + 14, height);
     for (std::size_t c = 0; c < panel.curves.size(); ++c) {
-      draw_row(svg, axes, panel.curves[c], y + row_height * static_cast<double>(c + 1));
+      draw_row(svg, axes, panel.curves[c], y + row_height * static_cast<double>(c + 1), plot.extremes);
     }
-    draw_axes(svg, axes, panel, p + 1 == plot.panels.size());
+    draw_axes(svg, axes, plot, panel, p + 1 == plot.panels.size());
     for (const PlotCurve& curve : panel.curves) draw_curve(svg, axes, curve);
-    for (const PlotCurve& curve : panel.curves) draw_extremes(svg, axes, curve);
+    for (const PlotCurve& curve : panel.curves) {
+      draw_markers(svg, axes, curve);
+      if (plot.extremes) draw_extremes(svg, axes, curve);
+    }
     y = axes.bottom + 18;
   }
   return picture_head(width, y + 44) + svg.body + "</svg>\n";

@@ -6,13 +6,23 @@
 
 namespace udar {
 
-/// One quantity over time.
+/// One quantity over time, or over what the plot has instead.
 struct PlotCurve {
   std::string name;
-  std::vector<double> times;   ///< s, rising
+  std::vector<double> times;   ///< s, rising; or the SI unit of the axis
   std::vector<double> values;  ///< SI, as many
   std::size_t colour = 0;
-  std::size_t dash = 0;  ///< which kind of line
+  std::size_t dash = 0;          ///< which kind of line
+  bool markers = false;          ///< a dot for each value
+  std::vector<double> errors{};  ///< half the length of an error bar for each value, SI; NaN: none; empty: none at all
+};
+
+/// What the panels have in common below them.
+struct PlotAxis {
+  std::string label = "time";
+  std::string unit = "s";  ///< SI
+  bool logarithmic = false;
+  std::vector<std::string> names{};  ///< of the places 0, 1, 2, ...; empty: numbers
 };
 
 /// Curves that share a vertical axis.
@@ -20,15 +30,18 @@ struct PlotPanel {
   std::string caption;
   std::string unit;  ///< SI; "" for plain numbers
   std::vector<PlotCurve> curves;
+  bool logarithmic = false;  ///< values that are not positive are passed over
 };
 
-/// Panels one below the other with a common time axis.
+/// Panels one below the other with a common axis, that of time unless it says otherwise.
 struct Plot {
   std::string title;
   std::string subtitle;
   std::vector<PlotPanel> panels;
-  double from = 0;  ///< s
-  double to = 1;    ///< s
+  double from = 0;  ///< s, or the SI unit of `axis`
+  double to = 1;
+  PlotAxis axis{};
+  bool extremes = true;  ///< tells and marks largest, smallest and last values; else only names
 };
 
 /// The plot as an SVG file, 1000 px wide. Above each panel a table names the curves with their largest, smallest and

@@ -100,7 +100,7 @@ class StudyPage {
       const Json about{{"name", run.name}, {"report", is_file(study_run_folder(folder_, run) / RunFolder::report)}};
       const std::size_t more = safe_json(about).size();  // with its comma
       try {
-        const RunRoom part{share - std::min(share, more), share / 5};
+        const RunRoom part{share - std::min(share, more), share / 3};
         PackedRun packed = pack_run(std::move(files_.at(order[k])), options_, part, blocks_);
         packed.description.update(about);
         room -= packed.bytes + more;

@@ -20,6 +20,7 @@ double round_up(double value) {
 }  // namespace
 
 std::string Ticks::text(double value) const {
+  if (logarithmic) return fmt::format("{:.4g}", value);
   if (std::fabs(value) < 1e-9 * step) return "0";
   const double largest = std::max(std::fabs(values.front()), std::fabs(values.back()));
   if (largest >= 1e6 || largest < 1e-4) return fmt::format("{:.4g}", value);
@@ -45,6 +46,26 @@ Ticks ticks_within(double low, double high, int wanted) {
   const double hair = 1e-9 * ticks.step;
   std::erase_if(ticks.values, [&](double v) { return v < low - hair || v > high + hair; });
   if (ticks.values.empty()) ticks.values.push_back(low);
+  return ticks;
+}
+
+Ticks log_ticks_over(double low, double high) {
+  if (!(high > low)) high = 10 * low;
+  const double first = std::floor(std::log10(low) + 1e-9);
+  const double last = std::ceil(std::log10(high) - 1e-9);
+  constexpr double few = 3;  // decades
+  Ticks ticks;
+  ticks.logarithmic = true;
+  for (double power = first; power <= last; ++power) {
+    for (const double digit : {1.0, 2.0, 5.0}) {
+      if (digit > 1 && last - first > few) break;
+      ticks.values.push_back(digit * std::pow(10, power));
+    }
+  }
+  // Only as far as the next tick outside.
+  const double hair = 1e-9;
+  while (ticks.values.size() > 2 && ticks.values[1] <= low * (1 + hair)) ticks.values.erase(ticks.values.begin());
+  while (ticks.values.size() > 2 && ticks.values[ticks.values.size() - 2] >= high * (1 - hair)) ticks.values.pop_back();
   return ticks;
 }
 
