@@ -95,11 +95,12 @@ Scale scale_across(const Plot& plot) {
   scale.unit = human_unit(plot.axis.unit, std::max(std::fabs(plot.from), std::fabs(plot.to)));
   scale.low = plot.from / scale.unit.size;
   scale.high = plot.to / scale.unit.size;
-  if (scale.logarithmic) {
+  if (!plot.axis.places.empty()) {
+    scale.ticks.logarithmic = true;  // each number as it is
+    for (const double place : plot.axis.places) scale.ticks.values.push_back(place / scale.unit.size);
+  } else if (scale.logarithmic) {
     scale.ticks = log_ticks_over(scale.low, scale.high);
     std::erase_if(scale.ticks.values, [&](double v) { return v < scale.low || v > scale.high; });
-  } else if (!plot.axis.names.empty()) {
-    for (std::size_t n = 0; n < plot.axis.names.size(); ++n) scale.ticks.values.push_back(static_cast<double>(n));
   } else {
     scale.ticks = ticks_within(scale.low, scale.high, 10);
   }
@@ -142,7 +143,7 @@ void draw_axes(Svg& svg, const Axes& axes, const Plot& plot, const PlotPanel& pa
     const double x = axes.x(t * across.unit.size);
     svg.add(R"(<path d="M{0:.1f} {1:.1f}V{2:.1f}" stroke="#dde2e7"/><path d="M{0:.1f} {2:.1f}v5" stroke="{3}"/>)", x,
             axes.top, axes.bottom, picture_ink);
-    if (lowest) svg.text({x, axes.bottom + 21}, names.empty() ? across.ticks.text(t) : names[n], "middle");
+    if (lowest) svg.text({x, axes.bottom + 21}, n < names.size() ? names[n] : across.ticks.text(t), "middle");
   }
   svg.add(R"(<path d="M{:.1f} {:.1f}V{:.1f}H{:.1f}" fill="none" stroke="{}" stroke-width="1.2"/>)", left, axes.top,
           axes.bottom, right, picture_ink);

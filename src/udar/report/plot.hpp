@@ -22,7 +22,8 @@ struct PlotAxis {
   std::string label = "time";
   std::string unit = "s";  ///< SI
   bool logarithmic = false;
-  std::vector<std::string> names{};  ///< of the places 0, 1, 2, ...; empty: numbers
+  std::vector<double> places{};      ///< of the ticks, SI, rising; empty: round numbers
+  std::vector<std::string> names{};  ///< of these places; empty: their numbers
 };
 
 /// Curves that share a vertical axis.

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "udar/base/error.hpp"
-#include "udar/report/human_unit.hpp"
+#include "udar/base/human_unit.hpp"
 #include "udar/report/plot.hpp"
 #include "udar/report/study_runs.hpp"
 #include "udar/results/file.hpp"
@@ -185,12 +185,15 @@ class StudyPlots {
       return r < quantity.values.size() ? quantity.values[r] : std::numeric_limits<double>::quiet_NaN();
     };
     const double best = known ? quantity.mesh.extrapolated : value(levels.back());
+    double size_of_it = std::fabs(best);  // of a number that goes to 0 its largest value
+    for (const std::size_t r : levels) size_of_it = std::fmax(size_of_it, std::fabs(value(r)));
+    constexpr double rounding = 1e-10;  // %
     curve.name += known ? " (from the extrapolated value)" : " (from the finest value)";
     for (auto at = levels.rbegin(); at != levels.rend(); ++at) {  // the finest first: sizes rise
       const auto mesh = static_cast<std::size_t>(study_.runs[*at].mesh);
       const double size = mesh < study_.element_sizes.size() ? study_.element_sizes[mesh] : 0;
-      const double error = 100 * std::fabs((value(*at) - best) / best);
-      if (!(size > 0) || !std::isfinite(error) || !(error > 0)) continue;
+      const double error = 100 * std::fabs(value(*at) - best) / size_of_it;
+      if (!(size > 0) || !std::isfinite(error) || !(error > rounding)) continue;
       curve.times.push_back(size);
       curve.values.push_back(error);
     }
@@ -222,13 +225,19 @@ class StudyPlots {
                               .colour = 4,
                               .dash = static_cast<std::size_t>(order)});
     }
+    std::vector<double> sizes;
+    for (auto at = meshes.rbegin(); at != meshes.rend(); ++at) {
+      const auto mesh = static_cast<std::size_t>(study_.runs[*at].mesh);
+      if (mesh < study_.element_sizes.size()) sizes.push_back(study_.element_sizes[mesh]);
+    }
+    std::erase_if(sizes, [&](double size) { return size < from || size > to; });
     constexpr double margin = 1.12;
     put("convergence", {.title = study_.case_name + ": convergence",
                         .subtitle = "headline quantities; each mesh with its finest time step",
                         .panels = {std::move(panel)},
                         .from = from / margin,
                         .to = to * margin,
-                        .axis = {.label = "element size", .unit = "m", .logarithmic = true},
+                        .axis = {.label = "element size", .unit = "m", .logarithmic = true, .places = sizes},
                         .extremes = false});
   }
 
@@ -289,6 +298,7 @@ class StudyPlots {
       }
       panel.curves.push_back(std::move(curve));
     }
+    for (std::size_t n = 0; n < names.size(); ++n) plot.axis.places.push_back(static_cast<double>(n));
     const double margin = to > from ? 0.04 * (to - from) : 1;
     plot.from = from - margin;
     plot.to = to + margin;

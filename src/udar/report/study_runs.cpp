@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <map>
 
-#include "udar/report/human_unit.hpp"
+#include "udar/base/human_unit.hpp"
 
 namespace udar {
 namespace {

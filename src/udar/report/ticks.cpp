@@ -54,9 +54,10 @@ Ticks log_ticks_over(double low, double high) {
   const double first = std::floor(std::log10(low) + 1e-9);
   const double last = std::ceil(std::log10(high) - 1e-9);
   constexpr double few = 3;  // decades
+  const double stride = std::max(1.0, std::ceil((last - first) / 8));
   Ticks ticks;
   ticks.logarithmic = true;
-  for (double power = first; power <= last; ++power) {
+  for (double power = first; power < last + stride; power += stride) {
     for (const double digit : {1.0, 2.0, 5.0}) {
       if (digit > 1 && last - first > few) break;
       ticks.values.push_back(digit * std::pow(10, power));

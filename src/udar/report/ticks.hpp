@@ -9,7 +9,7 @@ namespace udar {
 struct Ticks {
   double step = 1;
   std::vector<double> values;  ///< rising; the first at or below the range, the last at or above it
-  bool logarithmic = false;
+  bool logarithmic = false;    ///< each is written as it is: `step` means nothing
 
   /// The value with as many digits as the step needs.
   [[nodiscard]] std::string text(double value) const;
@@ -20,7 +20,7 @@ Ticks ticks_over(double low, double high, int wanted);
 /// Only those within `low` to `high`.
 Ticks ticks_within(double low, double high, int wanted);
 /// Of a logarithmic axis from `low` to `high`, both positive: powers of ten and, where these are few, 2 and 5 times
-/// them; the first at or below the range, the last at or above it. `step` means nothing.
+/// them; the first at or below the range, the last at or above it.
 Ticks log_ticks_over(double low, double high);
 
 }  // namespace udar
