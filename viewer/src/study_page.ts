@@ -9,9 +9,9 @@ import { Player } from "./player.ts";
 import { Plots } from "./plots.ts";
 import { save_picture } from "./saving.ts";
 import { Store, type Shown } from "./store.ts";
-import { is_sweep, label_of, type Study, type StudyData } from "./study.ts";
+import { is_sweep, label_of, verdicts, type Study, type StudyData } from "./study.ts";
 import { history_sections, NumberPlot, type Line } from "./study_plots.ts";
-import { differences, runs_table, StudyTables } from "./study_tables.ts";
+import { differences, runs_table, StudyTables, verdict_mark } from "./study_tables.ts";
 import { folded } from "./texts.ts";
 import { digits, Units, with_unit } from "./units.ts";
 import { level_colour, Wall } from "./wall.ts";
@@ -32,17 +32,22 @@ function header(study: Study): HTMLElement {
       study.version ? fact("by", study.version) : null));
 }
 
-/** "duration of stop = 1.38 ms +- 0.03 ms (mesh)": what it is small, how much it is large. */
+/** "duration of stop = 1.38 ms ± 0.03 ms (mesh)": what it is small, how much it is large, how sure it is beside it. */
 function headlines(study: Study): HTMLElement | null {
   if (study.headlines.length === 0) return null;
-  return h("section", { id: "headlines", "aria-label": "Headlines" }, ...study.headlines.map((line) => {
+  // There is a line for each headline that has a value, in the same order.
+  const marked = study.quantities.filter(({ headline, value }) => headline && value !== null);
+  return h("section", { id: "headlines", "aria-label": "Headlines" }, ...study.headlines.map((line, k) => {
     const words = line.replaceAll("+-", "±");
+    const verdict = marked.length === study.headlines.length && !is_sweep(study) ? marked[k].verdict || "unknown" : "";
+    const kind = verdict ? (verdicts[verdict] ?? verdicts.unknown).kind : "";
+    const mark = verdict ? verdict_mark(verdict) : null;
     const at = words.indexOf(" = ");
-    if (at < 0) return h("p", {}, h("span", { class: "much" }, words));
+    if (at < 0) return h("p", { class: kind }, h("span", { class: "what" }, words), mark);
     const [, much, rest] = /^(.*?)((?:\s*±|\s*[:;,(]\s).*|\s\(.*|)$/.exec(words.slice(at + 3))!;
-    const bars = rest.replace(/^[:;,]\s*/, "").trim().split(/\s+(?=±)/).filter((bar) => bar);
-    return h("p", {}, h("span", { class: "what" }, words.slice(0, at)), h("span", { class: "much" }, much),
-      ...bars.map((bar) => h("span", { class: "bar-of" }, bar)));
+    const bars = rest.replace(/^[:;,]\s*/, "").trim().split(/\s+(?=±)|,\s+/).filter((bar) => bar);
+    return h("p", { class: kind }, h("span", { class: "what" }, words.slice(0, at)), h("span", { class: "much" }, much), mark,
+      h("span", { class: "bars" }, ...bars.map((bar) => h("span", {}, bar))));
   }));
 }
 
@@ -125,7 +130,7 @@ export async function open_study(data: StudyData): Promise<void> {
   const runs = runs_table(study, units);
   fill();
   store.on(["units"], fill);
-  by_id("numbers").append(tables.element, number.element, differing, runs, histories);
+  by_id("numbers").append(tables.element, differing, number.element, runs, histories);
   const text = folded("Case", data.runs.at(-1)?.case_text ?? "");
   if (text) by_id("texts").append(text);
   else by_id("texts").remove();

@@ -99,7 +99,7 @@ export class NumberPlot {
       this.#over = Number(value);
       this.#draw();
     });
-    this.element = h("section", { id: "number-section" }, h("h2", {}, is_sweep(study) ? "Number over what was varied" : "Number over element size"),
+    this.element = h("section", { id: "number-section" }, h("h2", {}, is_sweep(study) ? "A number over what was varied" : "A number over element size"),
       h("div", { class: "bar" }, chosen.label, is_sweep(study) && study.varied.length > 1 ? over.label : null), this.#place);
     this.show = (quantity) => {
       this.#shown = quantity;

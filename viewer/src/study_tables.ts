@@ -12,7 +12,7 @@ const cell_head = (words: string, title?: string) =>
   h("th", { scope: "col", title, class: in_words.has(words) ? "words" : undefined }, words);
 function percent(part: Value, count = 3): string {
   if (part === null) return "–";
-  const all = 100 * part;
+  const all = part < 1e-9 ? 0 : 100 * part; // less is rounding
   return all > 1000 ? "> 1000 %" : `${all >= 10 ? String(Math.round(all)) : digits(all, count)} %`;
 }
 
@@ -27,10 +27,14 @@ export function verdict_mark(verdict: string): HTMLElement {
   return h("span", { class: `mark ${look.kind}` }, h("span", { class: "sign", "aria-hidden": "true" }, look.sign), verdict || "unknown");
 }
 
-/** "contacts.stop." faint, "duration" not. */
-export function name_of(path: string): Node[] {
-  const dot = path.lastIndexOf(".", path.endsWith(".min") || path.endsWith(".max") || path.endsWith(".last") || path.endsWith(".max_abs") ? path.lastIndexOf(".") - 1 : undefined);
-  return [h("span", { class: "faint" }, path.slice(0, dot + 1)), document.createTextNode(path.slice(dot + 1))];
+const of_a_column = new Set(["min", "max", "max_abs", "last", "time_of_min", "time_of_max"]);
+
+/** "contacts.stop." faint, "duration" not; of "corner.displacement_y.max" the last two. */
+function name_of(path: string): Node[] {
+  const parts = path.split(".");
+  const plain = parts.length > 2 && of_a_column.has(parts.at(-1)!) ? 2 : 1;
+  const faint = parts.slice(0, -plain).map((part) => `${part}.`).join("");
+  return [h("span", { class: "faint" }, faint), document.createTextNode(parts.slice(-plain).join("."))];
 }
 
 /** What the user looks for in the tables. */
@@ -175,12 +179,15 @@ export class StudyTables {
     const head = h("thead", {}, h("tr", {}, cell_head("name"), cell_head("unit"),
       ...levels.map(({ label }) => cell_head(label)), ...ends));
     const most = 400;
-    const rows = quantities.slice(0, most).map((quantity) => this.#row(quantity, levels, bare));
-    return h("div", {}, scrolled(caption, caption === "Headlines" ? h("caption", {}, caption) : null, head, h("tbody", {}, ...rows)),
+    const rows = quantities.slice(0, most).map((quantity) => this.#row(quantity, levels, bare, caption === "Headlines" ? "" : `${caption}.`));
+    const is_group = caption !== "Headlines";
+    return h("div", { class: is_group ? "group" : "" }, is_group ? null : h("h3", {}, caption), scrolled(caption, head, h("tbody", {}, ...rows)),
       quantities.length > most ? h("p", { class: "left-out" }, `The first ${most} of ${quantities.length}; look for a name above, or in study.csv.`) : null);
   }
 
-  #row(quantity: StudyQuantity, levels: Level[], bare: boolean): HTMLTableRowElement {
+  /** `group`: how names begin, which is not said again. */
+  #row(quantity: StudyQuantity, levels: Level[], bare: boolean, group: string): HTMLTableRowElement {
+    const name = quantity.name.startsWith(group) ? quantity.name.slice(group.length) : quantity.name;
     const estimate: Estimate = quantity[this.#wanted.refined];
     const values = levels.map(({ index }) => quantity.values[index] ?? null);
     const unit = this.units.for(quantity.unit, Math.max(0, ...values.map((v) => Math.abs(v ?? 0))));
@@ -192,7 +199,7 @@ export class StudyTables {
       return at < 0 ? undefined : estimate.differences[at - offset];
     };
     const row = h("tr", { "data-quantity": quantity.name },
-      h("th", { scope: "row" }, h("button", { type: "button", class: "name", title: "plots it", onclick: () => this.plot(quantity) }, ...name_of(quantity.name))),
+      h("th", { scope: "row" }, h("button", { type: "button", class: "name", title: "plots it", onclick: () => this.plot(quantity) }, ...name_of(name))),
       h("td", { class: "unit" }, unit.name),
       ...values.map((value, k) => value_cell(value, unit.size, bare ? undefined : difference(k))));
     if (bare) return row;

@@ -173,6 +173,8 @@ class StudyPlots {
     if (out.empty() && options_.quantities.empty()) {
       for (const StudyQuantity& q : study_.quantities) out.push_back(&q);
     }
+    // Those whose limit is known tell most.
+    std::stable_partition(out.begin(), out.end(), [](const auto* q) { return std::isfinite(q->mesh.extrapolated); });
     if (out.size() > most_numbers) out.resize(most_numbers);
     return out;
   }
