@@ -73,3 +73,19 @@ TEST_CASE("units for people") {
   CHECK(human_text(-0.0402, "m") == "-40.2 mm");
   CHECK(human_text(0, "N") == "0 N");
 }
+
+TEST_CASE("ticks of a logarithmic axis") {
+  const Ticks two = log_ticks_over(0.3, 25);
+  CHECK(two.values.size() == 8);  // 0.2 0.5 1 2 5 10 20 50
+  CHECK(two.values.front() == doctest::Approx(0.2));
+  CHECK(two.values.back() == doctest::Approx(50));
+  CHECK(two.text(0.5) == "0.5");
+  const Ticks many = log_ticks_over(1e-12, 1e3);
+  CHECK(many.values.size() <= 10);
+  CHECK(many.values.front() <= 1e-12 * (1 + 1e-9));
+  CHECK(many.values.back() >= 1e3 * (1 - 1e-9));
+  const Ticks exact = log_ticks_over(1, 10);
+  CHECK(exact.values.front() == doctest::Approx(1));
+  CHECK(exact.values.back() == doctest::Approx(10));
+  CHECK(log_ticks_over(3, 3).values.size() >= 2);
+}
