@@ -93,22 +93,24 @@ test("field, range and view are common", async () => {
   await scrub(page, 10);
   const seen = () => Promise.all([0, 1, 2].map((k) => page.locator(".stage").nth(k).screenshot().then((p) => p.toString("base64"))));
   let before = await seen();
+  const box = await page.locator(".stage").nth(2).boundingBox();
   for (const change of [
-    () => page.selectOption("#field", "speed"), () => page.click("#zoom-in"), () => page.selectOption("#map", "grey"),
-    () => page.uncheck("#show-outline"),
+    () => page.selectOption("#field", "speed"),
+    () => page.selectOption("#map", "grey"),
+    // A wheel over one stage moves all.
+    () => page.mouse.move(box.x + box.width / 2, box.y + box.height / 2).then(() => page.mouse.wheel(0, -400)),
   ]) {
     await change();
-    await page.waitForTimeout(350);
+    await page.waitForTimeout(300);
     const now = await seen();
     now.forEach((picture, k) => assert.notEqual(picture, before[k], `stage ${k} follows ${change}`));
     before = now;
   }
   assert.deepEqual((await panels()).map(({ field }) => field), ["speed", "speed", "speed"]);
-  await page.check("#show-outline");
   // The range is that over all runs: the largest of those in their own pages.
   const bounds = async (of) => {
     await of.selectOption("#field", "max_shear");
-    await of.waitForTimeout(400);
+    await of.waitForTimeout(300);
     return in_si(await of.inputValue("#high"));
   };
   const common = await bounds(page);
@@ -116,18 +118,11 @@ test("field, range and view are common", async () => {
   for (const run of ["mesh1-step1", "mesh2-step1", "mesh3-step1"]) {
     const own = join(scratch, `${run}.html`);
     execFileSync(udar, ["report", join(study.folder, "runs", run), "--output", own], { stdio: "pipe" });
-    const view = await open_report(browser, own);
+    const view = await open_report(browser, own, { width: 700, height: 500 });
     alone.push(await bounds(view));
     await view.context().close();
   }
   assert.equal(common, Math.max(...alone));
-  // A wheel over one stage moves all.
-  const box = await page.locator(".stage").nth(2).boundingBox();
-  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
-  before = await seen();
-  await page.mouse.wheel(0, -400);
-  await page.waitForTimeout(350);
-  (await seen()).forEach((picture, k) => assert.notEqual(picture, before[k], `stage ${k} follows the wheel`));
   await page.keyboard.press("f");
 });
 
