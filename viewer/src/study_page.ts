@@ -51,13 +51,19 @@ function headlines(study: Study): HTMLElement | null {
   }));
 }
 
-function notes(data: StudyData): HTMLElement | null {
+function notes(data: StudyData, levels: ShownLevel[]): HTMLElement | null {
   const lacking = data.study.runs.filter(({ state }) => state !== "done")
     .map(({ name, state, reason }) => `${name} ${state === "failed" ? "failed" : "is missing"}${reason ? `: ${reason}` : ""}`);
-  const left_out = [...data.left_out, ...data.runs.flatMap(({ name, left_out }) => left_out.map((words) => `${name}: ${words}`))];
+  // What several runs go without is said once.
+  const by_words = new Map<string, string[]>();
+  for (const { run, label } of levels) for (const words of run.left_out) by_words.set(words, [...(by_words.get(words) ?? []), label]);
+  const left_out = [...data.left_out, ...[...by_words].map(([words, labels]) => `${labels.join(", ")}: ${words}`)];
   if (lacking.length + left_out.length === 0) return null;
-  return h("ul", { class: "notes", "aria-label": "Notes" }, ...lacking.map((words) => h("li", {}, words)),
-    ...left_out.map((words) => h("li", { class: "left-out" }, words)));
+  const small = left_out.map((words) => h("li", { class: "left-out" }, words));
+  const most = 3;
+  return h("div", { class: "all-notes", role: "region", "aria-label": "Notes" },
+    h("ul", { class: "notes" }, ...lacking.map((words) => h("li", {}, words)), ...(small.length <= most ? small : [])),
+    small.length <= most ? null : h("details", {}, h("summary", {}, `Left out of this page (${small.length})`), h("ul", { class: "notes" }, ...small)));
 }
 
 interface ShownLevel extends Line {
@@ -110,7 +116,7 @@ export async function open_study(data: StudyData): Promise<void> {
     plots.redraw();
     number.redraw();
   }));
-  const words = notes(data);
+  const words = notes(data, levels);
   if (words) by_id("head").after(words);
   const said = headlines(study);
   if (said) main.prepend(said);

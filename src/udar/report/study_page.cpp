@@ -23,6 +23,22 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, error);
 }
 
+/// What runs go without.
+struct Lack {
+  std::string sentence;
+  std::string runs;  ///< their names
+};
+
+/// What several runs go without is said once.
+void add_lack(std::vector<Lack>& lacks, const std::string& sentence, const std::string& run) {
+  const auto at = std::find_if(lacks.begin(), lacks.end(), [&](const Lack& l) { return l.sentence == sentence; });
+  if (at == lacks.end()) {
+    lacks.push_back({sentence, run});
+  } else {
+    at->runs += ", " + run;
+  }
+}
+
 /// The page of a study on its way.
 class StudyPage {
  public:
@@ -46,16 +62,16 @@ class StudyPage {
     pack(options_.limit - around);
     Json runs = Json::array();
     ReportInfo info;
+    std::vector<Lack> lacks;
     for (const std::size_t r : shown_) {
       const auto at = packed_.find(r);
       if (at == packed_.end()) continue;
       info.frames += at->second.frames;
-      for (const std::string& sentence : at->second.left_out) {
-        info.left_out.push_back(study_.runs[r].name + ": " + sentence);
-      }
+      for (const std::string& sentence : at->second.left_out) add_lack(lacks, sentence, study_.runs[r].name);
       runs.push_back(std::move(at->second.description));
     }
-    info.left_out.insert(info.left_out.end(), left_out_.begin(), left_out_.end());
+    info.left_out = left_out_;
+    for (const Lack& lack : lacks) info.left_out.push_back(lack.runs + ": " + lack.sentence);
     const std::string text = safe_json(described(study, std::move(runs)));
     info.path = options_.output.empty() ? folder_ / StudyFolder::page : options_.output;
     info.bytes = write_page(info.path, page_, text, blocks_);
