@@ -158,6 +158,8 @@ TEST_CASE("which runs stand beside each other") {
   CHECK(step_levels(converge) == std::vector<std::size_t>{0, 5});
   CHECK(shown_runs(converge, 2) == std::vector<std::size_t>{3, 5});
   CHECK(shown_runs(only_runs("converge", {}), 6).empty());
+  // Of one mesh its time steps.
+  CHECK(shown_runs(only_runs("converge", {run(0, 1, "done"), run(0, 0, "done")}), 6) == std::vector<std::size_t>{1, 0});
 
   std::vector<StudyRun> many(11, run(0, 0, "done"));
   CHECK(shown_runs(only_runs("sweep", many), 6) == std::vector<std::size_t>{0, 2, 4, 6, 8, 10});
@@ -180,4 +182,8 @@ TEST_CASE("labels tell runs apart") {
   study.varied = {"obstacles.stop.friction", "run.integrator"};
   CHECK(level_label(study, {.name = "a", .texts = {"0.3", "adams"}}) == "friction 0.3, integrator adams");
   CHECK(level_label(study, {.name = "a"}) == "a");
+  study.varied = {"bodies.ball.velocity.0"};
+  CHECK(level_label(study, {.name = "a", .texts = {"20 m/s"}}) == "velocity.0 20 m/s");
+  study.varied = {"case"};
+  CHECK(level_label(study, {.name = "a", .texts = {"x"}}) == "case x");
 }

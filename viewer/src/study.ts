@@ -99,8 +99,8 @@ export interface Level {
 export const is_sweep = (study: Study): boolean => study.kind !== "converge";
 const is_done = (run: StudyRun): boolean => run.state === "done";
 
-/** The last part of a path in the case: "friction" of "obstacles.stop.friction". */
-export const last_part = (path: string): string => path.slice(path.lastIndexOf(".") + 1);
+/** The last part of a path in the case: "friction" of "obstacles.stop.friction", "velocity.0" of "bodies.ball.velocity.0". */
+export const last_part = (path: string): string => /[^.]*(?:\.\d+)?$/.exec(path)![0];
 
 export function mesh_label(study: Study, run: StudyRun, units: Units): string {
   const size = study.element_sizes[run.mesh];
@@ -149,6 +149,10 @@ export function step_levels_of(study: Study, units: Units): Level[] {
     .sort((a, b) => a.run.step - b.run.step);
   return levels.length > 1 ? levels : [];
 }
+
+/** Does the study refine the time step only? */
+export const is_of_steps = (study: Study, units: Units): boolean =>
+  !is_sweep(study) && levels_of(study, units).length < 2 && step_levels_of(study, units).length > 1;
 
 /** How a verdict looks: a word with a sign and a colour. */
 export const verdicts: Record<string, { sign: string; kind: string }> = {

@@ -9,7 +9,7 @@ import { Player } from "./player.ts";
 import { Plots } from "./plots.ts";
 import { save_picture } from "./saving.ts";
 import { Store, type Shown } from "./store.ts";
-import { is_sweep, label_of, verdicts, type Study, type StudyData } from "./study.ts";
+import { is_of_steps, is_sweep, label_of, step_label, verdicts, type Study, type StudyData } from "./study.ts";
 import { history_sections, NumberPlot, type Line } from "./study_plots.ts";
 import { differences, runs_table, StudyTables, verdict_mark } from "./study_tables.ts";
 import { folded } from "./texts.ts";
@@ -72,12 +72,13 @@ interface ShownLevel extends Line {
 
 /** The runs of the page, from the coarsest on, named and coloured. */
 function shown_levels({ study, runs }: StudyData, units: Units): ShownLevel[] {
+  const by_step = is_of_steps(study, units);
   return runs.map((run, k) => {
     const told = study.runs.find(({ name }) => name === run.name);
     const facts = [`${run.elements || told?.elements ? `${(run.elements || told!.elements).toLocaleString("en")} elements` : ""}`];
     const step = told?.longest_step ?? told?.shortest_step ?? null;
     if (step !== null) facts.push(`steps of ${with_unit(step, "s", units, 3)}`);
-    return { run, label: told ? label_of(study, told, units) : run.name, facts: facts.filter((f) => f).join(" · "), colour: level_colour(k) };
+    return { run, label: !told ? run.name : by_step ? step_label(told, units) : label_of(study, told, units), facts: facts.filter((f) => f).join(" · "), colour: level_colour(k) };
   });
 }
 

@@ -7,7 +7,7 @@ import { sections_of } from "./parts.ts";
 import { readable, type Curve, type Plots } from "./plots.ts";
 import type { History } from "./run.ts";
 import type { Shown, Store } from "./store.ts";
-import { is_sweep, last_part, levels_of, type ShownRun, type Study, type StudyQuantity, type Value } from "./study.ts";
+import { is_of_steps, is_sweep, last_part, levels_of, step_levels_of, type ShownRun, type Study, type StudyQuantity, type Value } from "./study.ts";
 import { digits, type Units } from "./units.ts";
 
 /** A run in the plots. */
@@ -88,8 +88,10 @@ export class NumberPlot {
   #over = 0; // which of the varied values
   #shown: StudyQuantity | null = null;
   #plot: uPlot | null = null;
+  readonly #is_of_steps: boolean;
 
   constructor(private readonly study: Study, private readonly units: Units, store: Store<Shown>) {
+    this.#is_of_steps = is_of_steps(study, units);
     const usable = study.quantities.filter((q) => q.values.some((v) => v !== null));
     const sorted = [...usable.filter((q) => q.headline), ...usable.filter((q) => !q.headline)];
     const chosen = choice("number", sorted.map((q, k) => [String(k), q.name] as const), "0", (value) => this.show(sorted[Number(value)]));
@@ -99,7 +101,7 @@ export class NumberPlot {
       this.#over = Number(value);
       this.#draw();
     });
-    this.element = h("section", { id: "number-section" }, h("h2", {}, is_sweep(study) ? "A number over what was varied" : "A number over element size"),
+    this.element = h("section", { id: "number-section" }, h("h2", {}, is_sweep(study) ? "A number over what was varied" : `A number over ${this.#size_words}`),
       h("div", { class: "bar" }, chosen.label, is_sweep(study) && study.varied.length > 1 ? over.label : null), this.#place);
     this.show = (quantity) => {
       this.#shown = quantity;
@@ -121,6 +123,10 @@ export class NumberPlot {
 
   show: (quantity: StudyQuantity) => void;
 
+  get #size_words(): string {
+    return this.#is_of_steps ? "time step" : "element size";
+  }
+
   redraw(): void {
     this.#plot?.redraw(false);
   }
@@ -128,11 +134,12 @@ export class NumberPlot {
   #series(quantity: StudyQuantity): { series: Series[]; names: string[] | null } {
     const { study } = this;
     if (!is_sweep(study)) {
-      const points = levels_of(study, this.units).flatMap(({ run, index, label }) => {
-        const [x, y] = [study.element_sizes[run.mesh] ?? null, quantity.values[index] ?? null];
+      const by_step = this.#is_of_steps;
+      const points = (by_step ? step_levels_of(study, this.units) : levels_of(study, this.units)).flatMap(({ run, index, label }) => {
+        const [x, y] = [by_step ? run.longest_step : study.element_sizes[run.mesh] ?? null, quantity.values[index] ?? null];
         return x === null || y === null ? [] : [{ x, y, label }];
       });
-      return { series: [{ name: "each mesh, finest step", points }], names: null };
+      return { series: [{ name: "", points }], names: null };
     }
     const done = study.runs.map((run, index) => ({ run, index })).filter(({ run }) => run.state === "done");
     const is_words = done.some(({ run }) => typeof run.values[this.#over] !== "number");
@@ -162,12 +169,12 @@ export class NumberPlot {
     const most = Math.max(0, ...series.flatMap(({ points }) => points.map(({ y }) => Math.abs(y))));
     const unit = this.units.for(quantity.unit, most);
     const sizes = !is_sweep(study);
-    const x_unit = sizes ? this.units.for("m", Math.max(0, ...series.flatMap(({ points }) => points.map(({ x }) => x)))) : { name: "", size: 1 };
+    const x_unit = sizes ? this.units.for(this.#is_of_steps ? "s" : "m", Math.max(0, ...series.flatMap(({ points }) => points.map(({ x }) => x)))) : { name: "", size: 1 };
     const tables = series.map(({ points }) => [points.map(({ x }) => x / x_unit.size), points.map(({ y }) => y / unit.size)] as uPlot.AlignedData);
-    const { error, extrapolated } = quantity.mesh;
+    const { error, extrapolated } = this.#is_of_steps ? quantity.step : quantity.mesh;
     const limit = sizes ? extrapolated : null;
-    const element = h("div", { class: "curves", role: "img", "aria-label": `${quantity.name} over ${sizes ? "element size" : study.varied[this.#over] ?? "runs"}` });
-    const axis_words = sizes ? `element size, ${x_unit.name}` : study.varied[this.#over] ?? "";
+    const element = h("div", { class: "curves", role: "img", "aria-label": `${quantity.name} over ${sizes ? this.#size_words : study.varied[this.#over] ?? "runs"}` });
+    const axis_words = sizes ? `${this.#size_words}, ${x_unit.name}` : study.varied[this.#over] ?? "";
     this.#place.replaceChildren(
       h("figcaption", {}, `${quantity.name}${unit.name ? `, ${unit.name}` : ""}`), element,
       h("p", { class: "axis-words" }, axis_words),

@@ -2,7 +2,7 @@
 import { choice, h } from "./html.ts";
 import type { Shown, Store } from "./store.ts";
 import {
-  is_sweep, label_of, levels_of, mesh_label, step_levels_of, verdicts,
+  is_of_steps, is_sweep, label_of, levels_of, mesh_label, step_levels_of, verdicts,
   type Estimate, type Level, type Study, type StudyDifference, type StudyQuantity, type Value,
 } from "./study.ts";
 import { digits, with_unit, type Units } from "./units.ts";
@@ -91,6 +91,7 @@ export class StudyTables {
     store: Store<Shown>,
     private readonly plot: (quantity: StudyQuantity) => void,
   ) {
+    if (is_of_steps(study, units)) this.#wanted.refined = "step";
     this.element.append(h("h2", {}, "Quantities"), this.#filters(), this.#body);
     store.on(["units"], () => this.#fill());
     this.#fill();
@@ -109,7 +110,7 @@ export class StudyTables {
     const bar = h("div", { class: "bar filters" }, h("label", { class: "choice" }, h("span", {}, "show"), text));
     if (!is_sweep(study)) bar.append(this.#verdict_filter());
     if (step_levels_of(study, this.units).length > 0) {
-      const refined = choice("refining", [["mesh", "the mesh"], ["step", "the time step"]], "mesh", (value) => {
+      const refined = choice("refining", [["mesh", "the mesh"], ["step", "the time step"]], this.#wanted.refined, (value) => {
         this.#wanted.refined = value as "mesh" | "step";
         this.#fill();
       });
@@ -218,8 +219,10 @@ export function differences(title: string, study: Study, all: StudyDifference[],
   const with_time = all.some(({ time }) => time !== null);
   const fill = (): void => {
     if (inside.firstChild) return;
-    inside.append(one("L2 norm, part of the finest", (d) => d.mesh_l2, "mesh"),
-      one("Largest difference, part of the largest value", (d) => d.mesh_max, "mesh"));
+    if (all.some((d) => d.mesh_l2.differences.length > 0)) {
+      inside.append(one("L2 norm, part of the finest", (d) => d.mesh_l2, "mesh"),
+        one("Largest difference, part of the largest value", (d) => d.mesh_max, "mesh"));
+    }
     if (all.some((d) => d.step_l2.differences.length > 0)) {
       inside.append(one("L2 norm, refining the time step", (d) => d.step_l2, "step"),
         one("Largest difference, refining the time step", (d) => d.step_max, "step"));

@@ -5,7 +5,7 @@ import { run, scratch } from "./harness.mjs";
 
 const nothing = () => ({ values: [], differences: [], order: null, extrapolated: null, error: null, verdict: "unknown", reason: "" });
 
-/** Order and error of numbers on meshes each finer by `ratio`, as docs/study-page.md shows them; the finest last. */
+/** Order and error of numbers on meshes each finer by `ratio`, by Richardson's extrapolation; the finest last. */
 export function estimate(values, ratio, tolerance) {
   const differences = values.slice(1).map((v, k) => Math.abs(v - values[k]) / (Math.abs(v) || 1));
   const out = { ...nothing(), values, differences };

@@ -10,6 +10,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// What says best what a path in the case is: "friction" of "obstacles.stop.friction", "velocity.0" of
+/// "bodies.ball.velocity.0".
+std::string last_part(const std::string& path) {
+  const std::size_t dot = path.rfind('.');
+  if (dot == std::string::npos) return path;
+  const bool is_number = path.find_first_not_of("0123456789", dot + 1) == std::string::npos && dot + 1 < path.size();
+  if (!is_number || dot == 0) return path.substr(dot + 1);
+  return path.substr(path.rfind('.', dot - 1) + 1);
+}
+
 bool is_done(const StudyRun& run) { return run.state == "done"; }
 
 }  // namespace
@@ -56,6 +66,7 @@ std::vector<std::size_t> done_runs(const Study& study) {
 std::vector<std::size_t> shown_runs(const Study& study, std::size_t most) {
   if (study.kind == "converge") {
     std::vector<std::size_t> levels = mesh_levels(study);
+    if (levels.size() == 1) levels = step_levels(study);
     if (levels.size() > most) levels.erase(levels.begin(), levels.end() - static_cast<std::ptrdiff_t>(most));
     return levels;
   }
@@ -81,9 +92,7 @@ std::string level_label(const Study& study, const StudyRun& run) {
   }
   std::string label;
   for (std::size_t v = 0; v < run.texts.size(); ++v) {
-    // The last part of a path in the case says what it is: "obstacles.stop.friction".
-    const std::string path = v < study.varied.size() ? study.varied[v] : "";
-    const std::string name = path.substr(path.rfind('.') + 1);
+    const std::string name = v < study.varied.size() ? last_part(study.varied[v]) : "";
     label += (label.empty() ? "" : ", ") + name + (name.empty() ? "" : " ") + run.texts[v];
   }
   return label.empty() ? run.name : label;

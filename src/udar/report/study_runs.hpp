@@ -21,8 +21,8 @@ std::vector<std::size_t> step_levels(const Study& study);
 /// The runs of a sweep that are done, in their order.
 std::vector<std::size_t> done_runs(const Study& study);
 
-/// Which runs are shown beside each other, at most `most`: of a convergence study the finest of its mesh_levels, of a
-/// sweep evenly chosen ones with the first and the last.
+/// Which runs are shown beside each other, at most `most`: of a convergence study the finest of its mesh_levels, or of
+/// its step_levels where there is only one mesh; of a sweep evenly chosen ones with the first and the last.
 std::vector<std::size_t> shown_runs(const Study& study, std::size_t most);
 
 /// What tells a run apart from those beside it: "2.5 mm", "friction 0.3"; its name where there is nothing else.
