@@ -112,6 +112,26 @@ class Convergence(Studies):
         times = {field["time"] for field in study["fields"]}
         self.assertEqual(len(times), 3)
 
+    def test_report_makes_page_and_plots_anew(self):
+        self.converge("--mesh", "2", "--step", "1")
+        self.assertFalse((self.folder / "study/study.html").exists())
+        (self.folder / "page.html").write_text("<p><!-- the run -->")
+        out, _ = self.run_program("report", "study", "--template", "page.html")
+        self.assertIn("study/study.html: ", out)
+        self.assertIn("study/plots: ", out)
+        page = (self.folder / "study/study.html").read_text()
+        text = page.split('id="run">')[1].split("</script>")[0]
+        inside = json.loads(text)
+        self.assertEqual(inside["study"], self.study())
+        self.assertEqual([run["name"] for run in inside["runs"]], ["mesh1-step1", "mesh2-step1"])
+        plot = (self.folder / "study/plots/corner.displacement_y.svg").read_text()
+        self.assertIn(">5 mm<", plot)
+        self.assertIn(">2.5 mm<", plot)
+        self.run_program("report", "study", "--template", "page.html", "--limit", "20 kB", "--output", "small.html", code=2)
+        self.assertFalse((self.folder / "small.html").exists())
+        self.run_program("report", "study", "--template", "page.html", "--limit", "900 kB", "--output", "small.html")
+        self.assertLessEqual((self.folder / "small.html").stat().st_size, 900_000)
+
     def test_what_is_done_is_not_done_again(self):
         self.converge("--mesh", "2", "--step", "1")
         summary = self.folder / "study/runs/mesh1-step1/summary.json"

@@ -115,7 +115,7 @@ test("the history's plot shows the value of the frame's time", async () => {
 test("changes field, colours and range", async () => {
   await scrub(page, 20);
   const looks = [];
-  for (const field of ["plastic_strain", "principal_3", "max_shear", "pressure", "speed", "flows_now"]) {
+  for (const field of ["plastic_strain", "principal_3", "max_shear", "pressure", "speed", "none", "flows_now"]) {
     await page.selectOption("#field", field);
     await page.waitForTimeout(250);
     looks.push((await page.locator("#stage").screenshot()).toString("base64"));

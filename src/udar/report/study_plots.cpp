@@ -133,7 +133,7 @@ class StudyPlots {
         if (is_nothing(read, finest, column)) continue;
         const Plot plot = overlay(name, column, levels, read, subtitle);
         if (!(plot.from < plot.to)) continue;
-        put(name + "." + column.name + ending, plot);
+        put(fmt::format("{}.{}{}", name, column.name, ending), plot);
         ++plots;
       }
     }
@@ -191,10 +191,10 @@ class StudyPlots {
     for (const std::size_t r : levels) size_of_it = std::fmax(size_of_it, std::fabs(value(r)));
     constexpr double rounding = 1e-10;  // %
     curve.name += known ? " (from the extrapolated value)" : " (from the finest value)";
-    for (auto at = levels.rbegin(); at != levels.rend(); ++at) {  // the finest first: sizes rise
-      const auto mesh = static_cast<std::size_t>(study_.runs[*at].mesh);
+    for (const std::size_t r : std::vector(levels.rbegin(), levels.rend())) {  // the finest first: sizes rise
+      const auto mesh = static_cast<std::size_t>(study_.runs[r].mesh);
       const double size = mesh < study_.element_sizes.size() ? study_.element_sizes[mesh] : 0;
-      const double error = 100 * std::fabs(value(*at) - best) / size_of_it;
+      const double error = 100 * std::fabs(value(r) - best) / size_of_it;
       if (!(size > 0) || !std::isfinite(error) || !(error > rounding)) continue;
       curve.times.push_back(size);
       curve.values.push_back(error);
@@ -228,8 +228,8 @@ class StudyPlots {
                               .dash = static_cast<std::size_t>(order)});
     }
     std::vector<double> sizes;
-    for (auto at = meshes.rbegin(); at != meshes.rend(); ++at) {
-      const auto mesh = static_cast<std::size_t>(study_.runs[*at].mesh);
+    for (const std::size_t r : std::vector(meshes.rbegin(), meshes.rend())) {
+      const auto mesh = static_cast<std::size_t>(study_.runs[r].mesh);
       if (mesh < study_.element_sizes.size()) sizes.push_back(study_.element_sizes[mesh]);
     }
     std::erase_if(sizes, [&](double size) { return size < from || size > to; });
