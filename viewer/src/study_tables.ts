@@ -7,7 +7,7 @@ import {
 } from "./study.ts";
 import { digits, with_unit, type Units } from "./units.ts";
 
-const in_words = new Set(["name", "run", "unit", "state", "verdict"]);
+const in_words = new Set(["name", "run", "unit", "state", "varied", "verdict"]);
 const cell_head = (words: string, title?: string) =>
   h("th", { scope: "col", title, class: in_words.has(words) ? "words" : undefined }, words);
 function percent(part: Value, count = 3): string {
@@ -263,7 +263,7 @@ export function runs_table(study: Study, units: Units): HTMLElement {
     const [state, kind] = run.state === "done" ? ["✓ done", "good"] : run.state === "failed" ? ["✗ failed", "bad"] : [`? ${run.state || "missing"}`, "unknown"];
     return h("tr", { "data-run": run.name }, h("th", { scope: "row" }, run.name),
       h("td", { class: "words" }, h("span", { class: `mark ${kind}` }, state), run.reason ? h("span", { class: "run-reason" }, run.reason) : null),
-      h("td", {}, is_sweep(study) ? label_of(study, run, units) : mesh_label(study, run, units)),
+      h("td", is_sweep(study) ? { class: "words" } : {}, is_sweep(study) ? label_of(study, run, units) : mesh_label(study, run, units)),
       h("td", {}, run.elements > 0 ? run.elements.toLocaleString("en") : "–"), h("td", {}, run.steps > 0 ? run.steps.toLocaleString("en") : "–"),
       h("td", {}, with_unit(run.shortest_step, "s", units, 3)), h("td", {}, seconds(run.stepping_seconds)),
       is_sweep(study) ? null : h("td", {}, growth === null ? "" : `× ${digits(growth, 3)}`),
