@@ -38,6 +38,9 @@ struct SmallStudy {
       study.element_sizes.push_back(size);
       study.runs.push_back(run);
     }
+    for (const char* name : {"corner.displacement_y", "stop.force_y", "block.position_y", "energy.total"}) {
+      study.histories.push_back({.name = name});
+    }
     write();
   }
   void write() const { udar::write_file(folder / udar::StudyFolder::study, udar::to_json(study)); }

@@ -74,6 +74,7 @@ class StudyPlots {
     if (error) {
       throw OutputError(fmt::format("cannot make {}: {}", (folder_ / StudyFolder::plots).string(), error.message()));
     }
+    remove_old();
     if (study_.kind == "converge") {
       convergence();
       histories(levels(mesh_levels(study_), false), "", "each mesh");
@@ -89,6 +90,17 @@ class StudyPlots {
 
  private:
   [[nodiscard]] bool is_stopped() const { return options_.interrupted && options_.interrupted(); }
+
+  /// What an earlier study left there would be taken for this one's.
+  void remove_old() const {
+    std::error_code error;
+    std::vector<fs::path> old;
+    for (fs::directory_iterator it(folder_ / StudyFolder::plots, error), end; !error && it != end;
+         it.increment(error)) {
+      if (it->path().extension() == ".svg" && fs::is_regular_file(it->symlink_status(error))) old.push_back(it->path());
+    }
+    for (const fs::path& file : old) fs::remove(file, error);
+  }
 
   void put(const std::string& name, const Plot& plot) {
     fs::path path = folder_ / StudyFolder::plots / (safe_name(name) + ".svg");
@@ -117,7 +129,6 @@ class StudyPlots {
     // The finest run says in which order they are looked at.
     for (const fs::path& file : find_run_files(levels.back().folder).histories) {
       const std::string name = file.stem().string();
-      if (name == "energy" || name == "momentum") continue;
       std::vector<History> read;
       for (const Level& level : levels) {
         try {
@@ -130,13 +141,22 @@ class StudyPlots {
       for (std::size_t c = 1; c < finest.columns.size(); ++c) {
         if (plots >= most_history_plots || is_stopped()) return;
         const Column& column = finest.columns[c];
-        if (is_nothing(read, finest, column)) continue;
+        if (!is_worth_it(read, finest, name, column)) continue;
         const Plot plot = overlay(name, column, levels, read, subtitle);
         if (!(plot.from < plot.to)) continue;
         put(fmt::format("{}.{}{}", name, column.name, ending), plot);
         ++plots;
       }
     }
+  }
+
+  /// A convergence study names the columns that are more than rounding.
+  [[nodiscard]] bool is_worth_it(const std::vector<History>& read, const History& finest, const std::string& history,
+                                 const Column& column) const {
+    if (study_.kind != "converge") return !is_nothing(read, finest, column);
+    const std::string name = fmt::format("{}.{}", history, column.name);
+    return std::any_of(study_.histories.begin(), study_.histories.end(),
+                       [&](const StudyDifference& d) { return d.name == name; });
   }
 
   [[nodiscard]] Plot overlay(const std::string& name, const Column& column, const std::vector<Level>& levels,
@@ -262,6 +282,9 @@ class StudyPlots {
   [[nodiscard]] Plot number(const StudyQuantity& quantity, const std::vector<std::size_t>& runs, bool by_number) const {
     Plot plot{.title = study_.case_name + ": " + quantity.name, .extremes = false};
     plot.axis = {.label = study_.varied.empty() ? "run" : study_.varied.front(), .unit = ""};
+    const bool has_unit =
+        by_number && !runs.empty() && study_.runs[runs.front()].texts.front().find(' ') != std::string::npos;
+    if (has_unit) plot.axis.label += " [SI units]";
     std::map<std::string, std::vector<std::array<double, 2>>> points;
     std::vector<std::string>& names = plot.axis.names;
     for (const std::size_t r : runs) {
