@@ -142,6 +142,17 @@ class Convergence(Studies):
         self.converge("--mesh", "3", "--step", "1", "--force")
         self.assertNotEqual(summary.stat().st_mtime_ns, before)
 
+    def test_what_may_spoil_a_study_is_told(self):
+        # Not yet off the stop: no contact time, and nobody takes the end of the run for one.
+        out, _ = self.converge("--mesh", "2", "--step", "1", "--set", "run.end_time=5 us", "--set", "output.fields_every=never")
+        self.assertNotIn("contact time", out)
+        names = [q["name"] for q in self.study()["quantities"]]
+        self.assertIn("contacts.stop.peak_force", names)
+        self.assertNotIn("contacts.stop.duration_99", names)
+        out, _ = self.converge("--mesh", "1", "--step", "2", "--force", "--set", "run.time_step=5.1e-7 s")
+        self.assertIn("steps were shortened", out)
+        self.assertGreater(self.study()["runs"][0]["shortened_steps"], 0)
+
     def test_another_case_is_refused(self):
         self.converge("--mesh", "2", "--step", "1")
         before = (self.folder / "study/study.json").read_text()
@@ -266,8 +277,10 @@ class Convergence(Studies):
         _, err = self.run_program("converge", "block.toml", "--output", "mine", code=2)
         self.assertIn("holds files that are not a study", err)
         self.assertEqual([p.name for p in (self.folder / "mine").iterdir()], ["thesis.txt"])
-        _, err = self.converge("--mesh", "2", "--step", "1", "--show", "contacts.stop.duraton_99", code=2)
-        self.assertIn("did you mean `contacts.stop.duration_99`?", err)
+        out, _ = self.converge("--mesh", "2", "--step", "1", "--show", "stop.duraton_99")
+        self.assertIn("warning: no run has a number `stop.duraton_99`; did you mean `stop.duration_99`?", out)
+        _, err = self.converge("--mesh", "2", "--step", "1", "--window", "60 us", code=2)
+        self.assertIn("--window is as long as the run", err)
 
     def wait_for(self, ready):
         for _ in range(3000):
@@ -355,7 +368,8 @@ class Sweeps(Studies):
             ("obstacles.stop.friction=0:1:-0.1", "no end"),
             ("obstacles.stop.fricton=0.1,0.2", "did you mean `friction`?"),
             ("obstacles.stop.friction=0.1,lots", "friction"),
-            ("obstacles.stop.friction=0:1:1e-9", "range"),
+            ("obstacles.stop.friction=0:1:1e-9", "has more than 10000 values"),
+            ("bodies.block.thickness=1:2 cm", "is no range"),
         ):
             with self.subTest(vary=vary):
                 run = subprocess.run([PROGRAM, "sweep", "block.toml", "--output", "bad", "--vary", vary],

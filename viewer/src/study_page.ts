@@ -90,7 +90,7 @@ export async function open_study(data: StudyData): Promise<void> {
   const blocks = new Blocks(room);
   const levels = shown_levels(data, units);
   const moving = levels.filter(({ run }) => run.times.length > 0);
-  const store = new Store<Shown>({ ...start });
+  const store = new Store<Shown>({ ...start, mesh: false }); // lines of other widths would be other colours
   const main = document.querySelector("main")!;
   main.classList.add("study");
 

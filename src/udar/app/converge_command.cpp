@@ -41,6 +41,9 @@ ExitCode converge(Arguments& arguments) {
   options.headlines = arguments.shown;
   const StudyInput input = study_input(arguments);
   StudyJob job{.kind = "converge", .plan = plan_convergence(input, options.levels), .conclude = {}};
+  if (options.window >= job.plan.front().end_time) {
+    throw UserError(ExitCode::usage, "--window is as long as the run", "average over a part of it");
+  }
   job.conclude = [&](const std::filesystem::path& folder, const std::vector<Standing>& standings) {
     return analyse_convergence(input, folder, job.plan, standings, options);
   };

@@ -3,13 +3,16 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "udar/app/signals.hpp"
 #include "udar/app/terminal.hpp"
+#include "udar/base/human_unit.hpp"
 #include "udar/parallel/for_each.hpp"
 #include "udar/report/study_page.hpp"
 #include "udar/report/study_plots.hpp"
 #include "udar/study/estimate.hpp"
+#include "udar/study/headlines.hpp"
 #include "udar/study/study_folder.hpp"
 
 namespace udar {
@@ -39,7 +42,8 @@ class StudyStatus {
     const double left = done > before_ ? spent * (1 - done) / (done - before_) : -1;
     std::string line = fmt::format("{} of {} done", count(standings, State::done), standings.size());
     if (const long long failed = count(standings, State::failed)) line += fmt::format(", {} failed", failed);
-    line += fmt::format("   ETA {}  ", left >= 0 ? clock_text(left) : "--:--");
+    if (count(standings, State::running) > 0)
+      line += fmt::format("   ETA {}  ", left >= 0 ? clock_text(left) : "--:--");
     for (std::size_t k = 0; k < plan_.size(); ++k) {
       if (standings[k].state != State::running) continue;
       line += fmt::format(" {} {:.0f} %", plan_[k].name, std::floor(100 * standings[k].part));
@@ -116,17 +120,70 @@ std::string tally(const Items& items, std::string_view what) {
   return text + "\n";
 }
 
-void print_study(const Study& study) {
+/// A sign before a headline: colours are not for every terminal.
+std::string_view sign_of(const std::string& verdict) {
+  if (verdict == verdict::converged) return "ok";
+  if (verdict == verdict::converging) return " ~";
+  return verdict == verdict::not_converging ? " !" : " ?";
+}
+
+void print_headlines(const Study& study) {
   std::size_t width = 0;
   for (const std::string& line : study.headlines) width = std::max(width, line.find(" = "));
-  if (!study.headlines.empty()) say("\n");
-  for (const std::string& line : study.headlines) {
+  std::size_t next = 0;
+  for (const StudyQuantity& q : study.quantities) {
+    if (!q.headline || !std::isfinite(q.value) || next >= study.headlines.size()) continue;
+    const std::string& line = study.headlines[next++];
     const std::size_t equals = line.find(" = ");
-    say("{:<{}}{}\n", line.substr(0, equals), width, line.substr(equals));
+    say("{}  {:<{}}{}\n", sign_of(q.verdict), line.substr(0, equals), width, line.substr(equals));
   }
-  if (study.kind != "converge") return;
-  say("\n{}{}{}", tally(study.quantities, "numbers"), tally(study.histories, "histories"),
-      tally(study.fields, "fields"));
+  say("\nok converged to {:g} %   ~ converging   ! not converging   ? unknown\n", 100 * study.tolerance);
+}
+
+/// What was varied, and the first numbers, as many as a line takes.
+void print_sweep(const Study& study) {
+  std::vector<const StudyQuantity*> shown;
+  for (const StudyQuantity& q : study.quantities) {
+    if (q.headline) shown.push_back(&q);
+  }
+  std::stable_partition(shown.begin(), shown.end(), [](const auto* q) { return q->name.starts_with("contacts."); });
+  constexpr std::size_t most = 4;
+  shown.resize(std::min(shown.size(), most));
+  for (std::size_t k = 0; k < shown.size(); ++k) say("({}) {}\n", k + 1, words_of(shown[k]->name));
+  std::size_t width = 12;
+  for (const StudyRun& run : study.runs) {
+    constexpr std::size_t widest = 40;
+    for (const std::string& text : run.texts) width = std::clamp(text.size(), width, widest);
+  }
+  say("\n{:<12}", "run");
+  for (const std::string& path : study.varied) {
+    std::string end = path;  // whole parts, as many as go
+    while (end.size() > width && end.find('.') != std::string::npos) end.erase(0, end.find('.') + 1);
+    say("{:>{}}", end, width + 2);
+  }
+  for (std::size_t k = 0; k < shown.size(); ++k) say("{:>14}", fmt::format("({})", k + 1));
+  say("\n");
+  constexpr std::size_t most_runs = 50;
+  for (std::size_t r = 0; r < std::min(study.runs.size(), most_runs); ++r) {
+    say("{:<12}", study.runs[r].name);
+    for (const std::string& text : study.runs[r].texts) say("{:>{}}", text.substr(0, width), width + 2);
+    for (const StudyQuantity* q : shown)
+      say("{:>14}", std::isfinite(q->values[r]) ? human_text(q->values[r], q->unit, 4) : "-");
+    say("\n");
+  }
+  if (study.runs.size() > most_runs) say("and {} more in study.md\n", study.runs.size() - most_runs);
+}
+
+void print_study(const Study& study) {
+  say("\n");
+  if (study.kind == "converge") {
+    if (!study.headlines.empty()) print_headlines(study);
+    say("{}{}{}", tally(study.quantities, "numbers"), tally(study.histories, "histories"),
+        tally(study.fields, "fields"));
+  } else {
+    print_sweep(study);
+  }
+  for (const std::string& warning : study.warnings) say("  warning: {}\n", warning);
 }
 
 void print_failures(const Study& study) {

@@ -10,7 +10,7 @@ namespace {
 constexpr const char* sweep_footer = R"(Examples:
   udar sweep cases/short-beam/short-beam.toml --vary obstacles.stop.friction=0,0.1,0.2,0.35
   udar sweep cases/short-beam/short-beam.toml --vary bodies.beam.velocity.1="-20 m/s","-40 m/s","-80 m/s"
-  udar sweep CASE.toml --vary bodies.ball.velocity.0="20:100:20 m/s" --vary materials.steel.law=tresca,elastic
+  udar sweep CASE.toml --vary bodies.ball.velocity.0="20:100:20 m/s" --vary bodies.ball.mesh.diagonals=right,alternating
   udar sweep CASE.toml --vary obstacles.stop.friction=0:0.5:0.05 --show contacts.stop.duration_99
 
 FIRST:LAST:STEP is a range. With several --vary every combination is computed. Runs that are done are not done

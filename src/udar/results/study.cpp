@@ -30,6 +30,7 @@ void for_each_member(T& r, Visit visit) {
   visit("shortest_step", r.shortest_step);
   visit("longest_step", r.longest_step);
   visit("energy_error", r.energy_error);
+  visit("shortened_steps", r.shortened_steps);
 }
 
 template <Is<Estimate> T, class Visit>
@@ -47,6 +48,7 @@ template <Is<StudyQuantity> T, class Visit>
 void for_each_member(T& q, Visit visit) {
   visit("name", q.name);
   visit("unit", q.unit);
+  visit("window", q.window);
   visit("values", q.values);
   visit("value", q.value);
   visit("mesh", q.mesh);
@@ -90,6 +92,7 @@ void for_each_member(T& s, Visit visit) {
   visit("quantities", s.quantities);
   visit("histories", s.histories);
   visit("fields", s.fields);
+  visit("warnings", s.warnings);
   visit("headlines", s.headlines);
 }
 

@@ -30,6 +30,7 @@ struct StudyRun {
   double shortest_step = no_number;  ///< s
   double longest_step = no_number;   ///< s
   double energy_error = no_number;   ///< part of the energy
+  long long shortened_steps = 0;     ///< shorter than the fixed step asked for
 };
 
 /// What happens to a number when the mesh is refined, or the time step; docs/convergence-method.md.
@@ -47,6 +48,7 @@ struct Estimate {
 struct StudyQuantity {
   std::string name;            ///< where it stands in the summary: "contacts.stop.duration_99"
   std::string unit;            ///< SI; "" for plain numbers
+  std::string window;          ///< "0 to 520 us" where its observer looks only then; else ""
   std::vector<double> values;  ///< of every run, in their order
   double value = no_number;    ///< at the finest mesh and step
   Estimate mesh;
@@ -89,6 +91,7 @@ struct Study {
   std::vector<StudyQuantity> quantities;
   std::vector<StudyDifference> histories;
   std::vector<StudyDifference> fields;
+  std::vector<std::string> warnings;   ///< what may spoil the study, a sentence each
   std::vector<std::string> headlines;  ///< "contact duration of stop = 1.38 ms +- 0.03 ms (mesh) +- 0.002 ms (step)"
 };
 

@@ -101,7 +101,7 @@ void add_history(Numbers& numbers, const std::string& observer, const std::map<s
 void add_episode(Numbers& numbers, const std::string& path, const EpisodeSummary& e) {
   numbers.add(path + "first_touch", "s", e.first_touch);
   numbers.add(path + "separation", "s", e.separation);
-  numbers.add(path + "duration", "s", e.duration);
+  if (std::isfinite(e.separation)) numbers.add(path + "duration", "s", e.duration);
   numbers.add(path + "impulse", "N s", e.impulse);
   numbers.add(path + "peak_force", "N", e.peak_force);
   numbers.add(path + "velocity_before", "m/s", e.velocity_before);
@@ -120,8 +120,10 @@ void add_contact(Numbers& numbers, const std::string& name, const ContactSummary
   const std::string path = fmt::format("contacts.{}.", name);
   numbers.add(path + "first_touch", "s", c.first_touch);
   numbers.add(path + "last_separation", "s", c.last_separation);
-  numbers.add(path + "duration", "s", c.duration);
-  numbers.add(path + "duration_99", "s", c.duration_99);
+  if (std::isfinite(c.last_separation)) {  // else the end of the run would pass for that of the contact
+    numbers.add(path + "duration", "s", c.duration);
+    numbers.add(path + "duration_99", "s", c.duration_99);
+  }
   numbers.add(path + "impulse", "N s", c.impulse);
   numbers.add(path + "peak_force", "N", c.peak_force);
   for (std::size_t k = 0; k < c.episodes.size(); ++k) {

@@ -1,9 +1,13 @@
 #include "udar/study/convergence.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "udar/base/text.hpp"
+#include "udar/case/case_file.hpp"
 #include "udar/results/summary_numbers.hpp"
 #include "udar/simulation/simulation.hpp"
 #include "udar/study/compare_levels.hpp"
@@ -60,7 +64,39 @@ void judge(StudyQuantity& q, double scale, const Axis& mesh, const Axis& step, d
   q.verdict = worse(q.mesh.verdict, q.step.verdict);
 }
 
+template <class Observers>
+void tell_windows_of(std::vector<StudyQuantity>& quantities, const Observers& observers) {
+  for (const auto& observer : observers) {
+    if (observer.window.begin == 0 && std::isinf(observer.window.end)) continue;
+    const std::string end = std::isinf(observer.window.end) ? "the end" : in_units(observer.window.end, "s");
+    for (StudyQuantity& q : quantities) {
+      const bool of_it = q.name.starts_with(fmt::format("histories.{}.", observer.name));
+      if (of_it) q.window = fmt::format("{} to {}", in_units(observer.window.begin, "s"), end);
+    }
+  }
+}
+
 }  // namespace
+
+void tell_windows(std::vector<StudyQuantity>& quantities, const Case& c) {
+  tell_windows_of(quantities, c.observed_nodes);
+  tell_windows_of(quantities, c.observed_elements);
+  tell_windows_of(quantities, c.observed_regions);
+}
+
+std::vector<std::string> warnings_of(const std::vector<StudyRun>& runs) {
+  std::vector<std::string> warnings;
+  for (const StudyRun& run : runs) {
+    if (run.state == "done" && run.verdict != "good") {
+      warnings.push_back(fmt::format("{}: the run itself is {}; its log.txt says why", run.name, run.verdict));
+    }
+    if (run.shortened_steps > 0) {
+      warnings.push_back(fmt::format("{}: {} of {} steps were shortened, so its step is not the one asked for",
+                                     run.name, run.shortened_steps, run.steps));
+    }
+  }
+  return warnings;
+}
 
 Axis mesh_axis(const std::vector<PlannedRun>& plan, const std::vector<Standing>& standings,
                const ConvergenceLevels& levels) {
@@ -101,6 +137,7 @@ std::vector<StudyRun> runs_of(const std::vector<PlannedRun>& plan, const std::ve
       run.shortest_step = s->time_step.min;
       run.longest_step = s->time_step.max;
       run.energy_error = s->energy_error;
+      run.shortened_steps = s->time_step.shortened_steps;
     }
     runs.push_back(std::move(run));
   }
@@ -156,6 +193,8 @@ Study analyse_convergence(const StudyInput& input, const std::filesystem::path& 
   for (std::size_t q = 0; q < study.quantities.size(); ++q) {
     judge(study.quantities[q], scales[q], levels.mesh, levels.step, options.tolerance);
   }
+  tell_windows(study.quantities, load_case(input.file, input.assignments));
+  study.warnings = warnings_of(study.runs);
   study.histories = compare_histories(levels, options);
   study.fields = compare_fields(levels, options);
   mark_headlines(study, options.headlines);

@@ -44,6 +44,12 @@ Study analyse_convergence(const StudyInput& input, const std::filesystem::path& 
 /// What is known of every run: the same for convergence and sweeps.
 std::vector<StudyRun> runs_of(const std::vector<PlannedRun>& plan, const std::vector<Standing>& standings);
 
+/// Says of each number of an observer when it was looked at.
+void tell_windows(std::vector<StudyQuantity>& quantities, const Case& c);
+
+/// What of the runs may spoil the study though they are done: a sentence each.
+std::vector<std::string> warnings_of(const std::vector<StudyRun>& runs);
+
 /// The numbers of all summaries, by name in the order of the last run that has them; what is zero to rounding in all
 /// runs is left out. `scales`: for each, the size beside which rounding errors are nothing.
 std::vector<StudyQuantity> quantities_of(const std::vector<Standing>& standings, std::vector<double>& scales);

@@ -8,7 +8,6 @@
 #include <string_view>
 #include <utility>
 
-#include "udar/base/error.hpp"
 #include "udar/base/human_unit.hpp"
 #include "udar/base/text.hpp"
 #include "udar/study/estimate.hpp"
@@ -33,7 +32,7 @@ int decimals_for(double value, double error) {
 std::string decimal(double value, int decimals) {
   const std::string text = fmt::format("{:.{}f}", std::fabs(value), decimals);
   const bool zero = text.find_first_not_of("0.") == std::string::npos;
-  return value < 0 && !zero ? "−" + text : text;
+  return value < 0 && !zero ? "-" + text : text;
 }
 
 std::string unit_text(const HumanUnit& unit) { return unit.name.empty() ? "" : " " + unit.name; }
@@ -61,7 +60,11 @@ std::string bar_of(const StudyQuantity& q, const Estimate& e, std::string_view w
 /// What there is instead of it.
 std::string lack_of(const Estimate& e, std::string_view what) {
   if (e.verdict.empty() || std::isfinite(e.error)) return "";
-  if (e.verdict == verdict::not_converging) return fmt::format(", not converging with the {}", what);
+  if (e.verdict == verdict::not_converging) {
+    const double last = 100 * e.differences.back();
+    return fmt::format(", not converging with the {} (last change {})", what,
+                       last < 10 ? fmt::format("{:.2g} %", last) : fmt::format("{:.0f} %", last));
+  }
   return fmt::format(", {}: {}", what, e.reason);
 }
 
@@ -102,19 +105,29 @@ void mark_usual(Study& study) {
   }
 }
 
-void mark_asked(Study& study, const std::string& asked) {
+/// Is `asked` the name, its end, or some whole parts of it?
+bool is_meant(const std::string& name, const std::string& asked) {
+  return fmt::format(".{}.", name).find(fmt::format(".{}.", asked)) != std::string::npos;
+}
+
+/// Returns whether there is such a number.
+bool mark_asked(Study& study, const std::string& asked) {
   bool found = false;
   std::vector<std::string> names;
   for (StudyQuantity& q : study.quantities) {
     names.push_back(q.name);
-    if (q.name != asked && !q.name.starts_with(asked + ".") && !q.name.ends_with("." + asked)) continue;
+    const std::size_t dot = q.name.find('.');
+    if (dot != std::string::npos) names.push_back(q.name.substr(dot + 1));  // "corner.velocity_y.min"
+    if (!is_meant(q.name, asked)) continue;
     q.headline = true;
     found = true;
   }
-  if (found) return;
+  if (found) return true;
   const std::string near = nearest_word(asked, names);
-  throw UserError(ExitCode::usage, fmt::format("no run of the study has a number `{}`", asked),
-                  near.empty() ? "study.csv names all of them" : fmt::format("did you mean `{}`?", near));
+  study.warnings.push_back(
+      fmt::format("no run has a number `{}`; {}", asked,
+                  near.empty() ? "study.csv names all of them" : fmt::format("did you mean `{}`?", near)));
+  return false;
 }
 
 }  // namespace
@@ -166,15 +179,16 @@ std::string words_of(const std::string& name) {
 std::string headline_of(const StudyQuantity& q) {
   const HumanUnit unit = human_unit(q.unit, std::fabs(q.value));
   const double error = largest_error(q);
-  return fmt::format("{} = {}{}{}{}{}{}", words_of(q.name),
+  return fmt::format("{}{} = {}{}{}{}{}{}", words_of(q.name), q.window.empty() ? "" : ", " + q.window,
                      decimal(q.value / unit.size, decimals_for(q.value / unit.size, error / unit.size)),
                      unit_text(unit), bar_of(q, q.mesh, "mesh", unit), bar_of(q, q.step, "step", unit),
                      lack_of(q.mesh, "mesh"), lack_of(q.step, "step"));
 }
 
 void mark_headlines(Study& study, const std::vector<std::string>& asked) {
-  if (asked.empty()) mark_usual(study);
-  for (const std::string& name : asked) mark_asked(study, name);
+  bool any = false;
+  for (const std::string& name : asked) any = mark_asked(study, name) || any;
+  if (!any) mark_usual(study);
   for (const StudyQuantity& q : study.quantities) {
     if (q.headline && std::isfinite(q.value)) study.headlines.push_back(headline_of(q));
   }

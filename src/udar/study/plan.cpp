@@ -15,6 +15,7 @@ namespace udar {
 namespace {
 
 constexpr std::size_t most_runs = 10000;
+constexpr const char* range_form = "write FIRST:LAST:STEP UNIT, as in 0:0.5:0.1 or \"20:100:20 m/s\"";
 
 Case with_changes(const StudyInput& input, const std::vector<std::string>& changes) {
   std::vector<std::string> all = input.assignments;
@@ -99,10 +100,10 @@ std::vector<std::string> values_of_range(std::string_view text) {
   if (!read_number(text, first) || !colon() || !read_number(text, last) || !colon() || !read_number(text, step))
     return {};
   const double count = (last - first) / step;
-  if (!(count >= 0) || count > static_cast<double>(most_runs)) {
-    refuse(fmt::format("the range {}:{}:{} has no end that its step reaches", shortest(first), shortest(last),
-                       shortest(step)),
-           "write FIRST:LAST:STEP, as in 0:0.5:0.1");
+  const std::string range = fmt::format("the range {}:{}:{}", shortest(first), shortest(last), shortest(step));
+  if (!(count >= 0)) refuse(range + " has no end that its step reaches", range_form);
+  if (count > static_cast<double>(most_runs)) {
+    refuse(fmt::format("{} has more than {} values", range, most_runs), "take a larger step");
   }
   const auto steps = static_cast<int>(std::floor(count * (1 + 1e-12) + 1e-9));
   std::vector<std::string> values;
@@ -111,6 +112,24 @@ std::vector<std::string> values_of_range(std::string_view text) {
     values.push_back(fmt::format("{:.12g}{}", first + k * step, text));
   }
   return values;
+}
+
+/// No value of a case has a colon outside of a text or a table.
+bool looks_like_range(const std::string& value) {
+  return value.find(':') != std::string::npos && value.find_first_of("\"'{[") == std::string::npos;
+}
+
+/// The same key twice, or one within the other: the later would undo the earlier.
+void refuse_overlaps(const std::vector<Variation>& variations) {
+  for (std::size_t a = 0; a < variations.size(); ++a) {
+    for (std::size_t b = a + 1; b < variations.size(); ++b) {
+      const std::string one = variations[a].path + ".";
+      const std::string two = variations[b].path + ".";
+      if (!one.starts_with(two) && !two.starts_with(one)) continue;
+      refuse(fmt::format("`{}` and `{}` vary the same value", variations[a].path, variations[b].path),
+             "give all its values with one `--vary`");
+    }
+  }
 }
 
 }  // namespace
@@ -144,6 +163,7 @@ Variation read_variation(const std::string& text) {
     if (value.empty()) refuse(fmt::format("`{}` has an empty value", text), cure);
     const std::vector<std::string> range = values_of_range(value);
     if (range.empty()) {
+      if (looks_like_range(value)) refuse(fmt::format("`{}` is no range", value), range_form);
       v.values.push_back(value);
     } else {
       v.values.insert(v.values.end(), range.begin(), range.end());
@@ -157,6 +177,7 @@ Variation read_variation(const std::string& text) {
 }
 
 std::vector<PlannedRun> plan_sweep(const StudyInput& input, const std::vector<Variation>& variations) {
+  refuse_overlaps(variations);
   std::size_t count = 1;
   for (const Variation& v : variations) {
     count *= v.values.size();

@@ -1,5 +1,6 @@
 #include "udar/study/sweep.hpp"
 
+#include "udar/case/case_file.hpp"
 #include "udar/simulation/simulation.hpp"
 #include "udar/study/convergence.hpp"
 #include "udar/study/headlines.hpp"
@@ -35,6 +36,8 @@ Study collect_sweep(const StudyInput& input, const std::vector<Variation>& varia
   for (StudyQuantity& q : study.quantities) {
     for (const double v : q.values) q.value = v == v ? v : q.value;
   }
+  tell_windows(study.quantities, load_case(input.file, input.assignments));
+  study.warnings = warnings_of(study.runs);
   mark_headlines(study, headlines);
   study.headlines.clear();  // a single value says nothing of a sweep
   return study;
