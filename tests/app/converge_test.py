@@ -149,7 +149,8 @@ class Convergence(Studies):
         names = [q["name"] for q in self.study()["quantities"]]
         self.assertIn("contacts.stop.peak_force", names)
         self.assertNotIn("contacts.stop.duration_99", names)
-        out, _ = self.converge("--mesh", "1", "--step", "2", "--force", "--set", "run.time_step=5.1e-7 s")
+        out, _ = self.converge("--mesh", "1", "--step", "2", "--force", "--set", "run.time_step=5.17e-7 s",
+                               "--set", "bodies.block.velocity.1=-80 m/s")
         self.assertIn("steps were shortened", out)
         self.assertGreater(self.study()["runs"][0]["shortened_steps"], 0)
 
