@@ -4,7 +4,9 @@ import type { Frames } from "./frames.ts";
 import { by_id, choice } from "./html.ts";
 import type { History, Run } from "./run.ts";
 import { save_film, type Composed } from "./saving.ts";
+import type { Stage } from "./stage.ts";
 import type { Shown, Store } from "./store.ts";
+import { box_of, opening_box, type Box } from "./view.ts";
 
 /** Decoded arrays that are kept, bytes. */
 export const room = 128 * 1024 * 1024;
@@ -65,6 +67,20 @@ export function first_field(frames: Frames, fields: Field[]): string {
     .map((id) => fields.find((f) => f.id === id))
     .find((f) => f?.needs.some(is_something));
   return (found ?? fields[0])?.id ?? "";
+}
+
+/** Reads what all frames of a run share and gives it to its stage; the box of the bodies to open with. */
+export async function prepare_stage(frames: Frames, stage: Stage, run: Run): Promise<Box> {
+  await frames.open();
+  stage.scene?.set_mesh(frames.corners, run.elements);
+  void frames.blocks.boundary(frames.corners, run.elements).then((edges) => {
+    stage.scene?.set_outline(edges);
+    stage.repaint();
+  });
+  await frames.load(0, ["x", "y"]);
+  const first = frames.places(0);
+  stage.scene?.set_first_places(first);
+  return opening_box(frames, box_of(first, frames.origin));
 }
 
 /** What the button for a film does: it begins one, and pressed again ends it. */

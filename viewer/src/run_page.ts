@@ -5,7 +5,7 @@ import { listen_to_keys, look_bar, player_bar, view_bar } from "./controls.ts";
 import { fields_of, type Field } from "./fields.ts";
 import { Frames, nearest_frame } from "./frames.ts";
 import { by_id, h } from "./html.ts";
-import { failed, film_button, first_field, room, sections_of, start, theme_choice } from "./parts.ts";
+import { failed, film_button, first_field, prepare_stage, room, sections_of, start, theme_choice } from "./parts.ts";
 import { pick_at, Picking } from "./picking.ts";
 import { Player } from "./player.ts";
 import { Plots } from "./plots.ts";
@@ -16,7 +16,7 @@ import { Stage } from "./stage.ts";
 import { Store, type Shown } from "./store.ts";
 import { contacts, folded, header, notes, origin } from "./texts.ts";
 import { Units } from "./units.ts";
-import { box_of, opening_box, View } from "./view.ts";
+import { box_of, View } from "./view.ts";
 
 function history_sections(run: Run, plots: Plots): HTMLElement[] {
   return sections_of(run).map(({ title, open, histories }) => {
@@ -92,16 +92,8 @@ export async function open_run(run: Run): Promise<void> {
     stage_box.append(h("p", { class: "empty" },
       "This run has no frames. Ask for them in the case: [output] fields_every = \"20 us\"."));
   } else {
-    await frames.open();
-    stage.scene?.set_mesh(frames.corners, run.elements);
-    void frames.blocks.boundary(frames.corners, run.elements).then((edges) => {
-      stage.scene?.set_outline(edges);
-      stage.repaint();
-    });
-    await frames.load(0, ["x", "y"]);
-    const first = frames.places(0);
-    stage.scene?.set_first_places(first);
-    if (!asked.width) view.fit(opening_box(frames, box_of(first, frames.origin)), 0);
+    const opening = await prepare_stage(frames, stage, run);
+    if (!asked.width) view.fit(opening, 0);
     const fit = (): void => {
       if (stage.drawn) view.fit(box_of(stage.drawn.places, frames.origin), stage.drawn.frame);
     };

@@ -22,6 +22,7 @@ export interface StudyRun {
   shortest_step: Value;
   longest_step: Value;
   energy_error: Value;
+  shortened_steps?: number;
 }
 
 export interface Estimate {
@@ -72,6 +73,7 @@ export interface Study {
   quantities: StudyQuantity[];
   histories: StudyDifference[];
   fields: StudyDifference[];
+  warnings?: string[];
   headlines: string[];
 }
 

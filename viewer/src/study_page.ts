@@ -53,7 +53,8 @@ function headlines(study: Study): HTMLElement | null {
 
 function notes(data: StudyData, levels: ShownLevel[]): HTMLElement | null {
   const lacking = data.study.runs.filter(({ state }) => state !== "done")
-    .map(({ name, state, reason }) => `${name} ${state === "failed" ? "failed" : "is missing"}${reason ? `: ${reason}` : ""}`);
+    .map(({ name, state, reason }) => `${name} ${state === "failed" ? "failed" : "is missing"}${reason ? `: ${reason}` : ""}`)
+    .concat(data.study.warnings ?? []);
   // What several runs go without is said once.
   const by_words = new Map<string, string[]>();
   for (const { run, label } of levels) for (const words of run.left_out) by_words.set(words, [...(by_words.get(words) ?? []), label]);

@@ -5,12 +5,13 @@ import { curves } from "./colours.ts";
 import { fields_of, type Field } from "./fields.ts";
 import { Frames, nearest_frame } from "./frames.ts";
 import { h } from "./html.ts";
+import { prepare_stage } from "./parts.ts";
 import { Show, type CommonRanges, type Range } from "./show.ts";
 import { Stage } from "./stage.ts";
 import { Store, switches, type Shown } from "./store.ts";
 import type { ShownRun } from "./study.ts";
 import type { Units } from "./units.ts";
-import { box_of, opening_box, View, type Box } from "./view.ts";
+import { box_of, View, type Box } from "./view.ts";
 import type { Movable } from "./controls.ts";
 
 /** What all stages have from the common store. */
@@ -146,16 +147,7 @@ export class Wall {
   async open(is_view_given: boolean): Promise<void> {
     const boxes: Box[] = [];
     for (const { frames, stage, run } of this.panels) {
-      await frames.open();
-      stage.scene?.set_mesh(frames.corners, run.elements);
-      void frames.blocks.boundary(frames.corners, run.elements).then((edges) => {
-        stage.scene?.set_outline(edges);
-        stage.repaint();
-      });
-      await frames.load(0, ["x", "y"]);
-      const first = frames.places(0);
-      stage.scene?.set_first_places(first);
-      boxes.push(opening_box(frames, box_of(first, frames.origin)));
+      boxes.push(await prepare_stage(frames, stage, run));
     }
     if (!is_view_given) this.first.view.fit(around(boxes), 0);
     this.panels.forEach((panel) => this.#lead(panel));

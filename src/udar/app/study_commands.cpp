@@ -93,18 +93,21 @@ std::vector<std::string> draw(const fs::path& folder, bool& page) {
   const auto attempt = [&](const char* what, const auto& make) {
     try {
       make();
-      return true;
     } catch (const UserError& error) {
       notes.push_back(fmt::format("no {}: {}", what, error.diagnostics.front().message));
     } catch (const OutputError& error) {
       notes.push_back(fmt::format("no {}: {}", what, error.what()));
     }
-    return false;
   };
-  attempt("plots", [&] { write_study_plots(folder); });
-  page = attempt("study.html", [&] {
-    for (const std::string& left_out : write_study_page(folder).left_out) notes.push_back(left_out);
+  attempt("plots", [&] { write_study_plots(folder, {.interrupted = is_interrupted}); });
+  attempt("study.html", [&] {
+    ReportOptions options;
+    options.interrupted = is_interrupted;
+    const ReportInfo info = write_study_page(folder, options);
+    page = !info.path.empty();
+    notes.insert(notes.end(), info.left_out.begin(), info.left_out.end());
   });
+  if (is_interrupted()) notes.emplace_back("interrupted: `udar report` makes the page and the plots");
   return notes;
 }
 

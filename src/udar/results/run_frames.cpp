@@ -44,9 +44,9 @@ std::vector<std::vector<Vec2>> read_outlines(const FrameFiles& frame) {
   return outlines;
 }
 
-RunFrames::RunFrames(const fs::path& folder) : files_(find_run_files(folder)) {
+RunFrames::RunFrames(RunFiles files) : files_(std::move(files)) {
   if (!files_.frames.empty()) return;
-  throw UserError(ExitCode::usage, fmt::format("the run `{}` has no frames", folder.string()),
+  throw UserError(ExitCode::usage, fmt::format("the run `{}` has no frames", files_.folder.string()),
                   "run the case again with --set output.fields_every=\"20 us\", or some other time");
 }
 

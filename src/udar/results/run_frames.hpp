@@ -27,7 +27,9 @@ std::vector<std::vector<Vec2>> read_outlines(const FrameFiles& frame);
 class RunFrames {
  public:
   /// Throws UserError (usage) where the folder is no run folder or has no frames, OutputError where it cannot be read.
-  explicit RunFrames(const std::filesystem::path& folder);
+  explicit RunFrames(const std::filesystem::path& folder) : RunFrames(find_run_files(folder)) {}
+  /// The same of a folder that was looked into.
+  explicit RunFrames(RunFiles files);
 
   [[nodiscard]] const RunFiles& files() const { return files_; }
   /// The name of the folder: what tells runs of one case apart.

@@ -98,9 +98,8 @@ struct Study {
 /// The files of a study folder, by their names in it.
 struct StudyFolder {
   static constexpr std::string_view marker = ".udar-study";  ///< says that Udar made this folder, and is its lock
-  static constexpr std::string_view given_case = "case.toml";
-  static constexpr std::string_view runs = "runs";          ///< folder of run folders
-  static constexpr std::string_view commands = "runs.txt";  ///< a command line for each run that is not done
+  static constexpr std::string_view runs = "runs";           ///< folder of run folders
+  static constexpr std::string_view commands = "runs.txt";   ///< a command line for each run that is not done
   static constexpr std::string_view study = "study.json";
   static constexpr std::string_view table = "study.csv";  ///< every number of every run
   static constexpr std::string_view report = "study.md";

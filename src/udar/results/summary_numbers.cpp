@@ -10,8 +10,6 @@
 namespace udar {
 namespace {
 
-constexpr double rounding = 1e-9;  // beside the scale of its kind
-
 /// The largest distance of a body from the origin, m.
 double length_of(const Summary& summary) {
   double length = 0;
@@ -25,11 +23,11 @@ double length_of(const Summary& summary) {
 
 class Numbers {
  public:
-  explicit Numbers(const Summary& summary) : summary_(summary) {}
+  explicit Numbers(const Summary& summary) : scales_(summary) {}
 
   void add(std::string name, std::string unit, double value, double scale = 0) {
     if (!std::isfinite(value)) return;
-    scale = std::max(scale, scale_of_run(summary_, unit));
+    scale = std::max(scale, scales_.of(unit));
     found.push_back({std::move(name), std::move(unit), value, scale});
   }
   void add(const std::string& name, const std::string& unit, Vec2 value) {
@@ -39,13 +37,13 @@ class Numbers {
   }
   /// May rounding errors be all that a column is?
   [[nodiscard]] bool is_noise(double largest, const std::string& unit, double scale) const {
-    return !(largest > rounding * std::max(scale, scale_of_run(summary_, unit)));
+    return !(largest > rounding_part * std::max(scale, scales_.of(unit)));
   }
 
   std::vector<SummaryNumber> found;
 
  private:
-  const Summary& summary_;
+  RunScales scales_;
 };
 
 void add_ledger(Numbers& numbers, const LedgerSummary& l) {
@@ -144,26 +142,30 @@ bool is_bookkeeping(std::string_view history, std::string_view column) {
   return column == "touching_nodes" || column == "flows" || (book && column.starts_with("error"));
 }
 
-double scale_of_run(const Summary& s, std::string_view unit) {
+RunScales::RunScales(const Summary& s)
+    : energy_(std::max(std::fabs(s.ledger.start), std::fabs(s.ledger.total))),
+      length_(length_of(s)),
+      rate_(s.end_time > 0 ? 1 / s.end_time : 0) {
   double mass = 0;
   for (const auto& [body, m] : s.masses) mass += m;
-  const double energy = std::max(std::fabs(s.ledger.start), std::fabs(s.ledger.total));
-  const double momentum = std::sqrt(2 * mass * energy);
-  const double velocity = mass > 0 ? momentum / mass : 0;
-  if (unit == "J") return energy;
-  if (unit == "kg m/s" || unit == "N s") return momentum;
-  if (unit == "m/s") return velocity;
-  if (unit == "kg m^2/s") return momentum * length_of(s);
-  const double rate = s.end_time > 0 ? 1 / s.end_time : 0;
-  if (unit == "m/s^2") return velocity * rate;
-  if (unit == "N") return momentum * rate;
-  if (unit == "N m") return momentum * rate * length_of(s);
+  momentum_ = std::sqrt(2 * mass * energy_);
+  velocity_ = mass > 0 ? momentum_ / mass : 0;
+}
+
+double RunScales::of(std::string_view unit) const {
+  if (unit == "J") return energy_;
+  if (unit == "kg m/s" || unit == "N s") return momentum_;
+  if (unit == "m/s") return velocity_;
+  if (unit == "kg m^2/s") return momentum_ * length_;
+  if (unit == "m/s^2") return velocity_ * rate_;
+  if (unit == "N") return momentum_ * rate_;
+  if (unit == "N m") return momentum_ * rate_ * length_;
   return 0;
 }
 
 std::string unit_of_quantity(std::string_view history, std::string_view column) {
   if (history == "energy") return "J";
-  constexpr std::array<std::pair<std::string_view, const char*>, 16> known{{{"position", "m"},
+  constexpr std::array<std::pair<std::string_view, const char*>, 15> known{{{"position", "m"},
                                                                             {"displacement", "m"},
                                                                             {"velocity", "m/s"},
                                                                             {"angular_velocity", "rad/s"},
@@ -177,8 +179,7 @@ std::string unit_of_quantity(std::string_view history, std::string_view column) 
                                                                             {"reaction", "N"},
                                                                             {"moment", "N m"},
                                                                             {"impulse", "N s"},
-                                                                            {"angle", "rad"},
-                                                                            {"turn", "rad"}}};
+                                                                            {"angle", "rad"}}};
   for (const auto& [stem, unit] : known) {
     if (column == stem || column.starts_with(std::string(stem) + "_")) return unit;
   }

@@ -25,9 +25,24 @@ double first_touch(const Summary& summary);
 /// Counts, flags and errors of the books, which are no results.
 bool is_bookkeeping(std::string_view history, std::string_view column);
 
-/// What a quantity of this SI unit could be in the run, from its masses, energy, size and duration: beside it a
-/// momentum or a spin that is only rounding is nothing. 0 for other units, and where nothing is known.
-double scale_of_run(const Summary& summary, std::string_view unit);
+/// What is up to this part of the scale of its kind is rounding.
+inline constexpr double rounding_part = 1e-9;
+
+/// What quantities could be in a run, from its masses, energy, size and duration: beside it a momentum or a spin that
+/// is only rounding is nothing.
+class RunScales {
+ public:
+  explicit RunScales(const Summary& summary);
+  /// Of quantities in this SI unit; 0 for other units, and where nothing is known.
+  [[nodiscard]] double of(std::string_view unit) const;
+
+ private:
+  double energy_ = 0;    ///< J
+  double momentum_ = 0;  ///< kg m/s
+  double velocity_ = 0;  ///< m/s
+  double length_ = 0;    ///< m
+  double rate_ = 0;      ///< 1/s
+};
 
 /// The unit of a column of a history: "corner", "velocity_x" -> "m/s"; "" for plain numbers.
 std::string unit_of_quantity(std::string_view history, std::string_view column);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <optional>
 
@@ -19,8 +18,6 @@ namespace udar {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double rounding = 1e-9;
 
 /// Differences of neighbours along an axis, and the size of the finest level.
 struct Norms {
@@ -127,17 +124,17 @@ double largest_of(const std::vector<double>& values) {
 }
 
 /// The columns that are more than rounding, beside those in the same unit.
-std::vector<Column> columns_with_something(const History& history, const std::string& name, const Summary& summary) {
+std::vector<Column> columns_with_something(const History& history, const std::string& name, const RunScales& of_run) {
   std::map<std::string, double> scales;
   for (std::size_t c = 1; c < history.columns.size(); ++c) {
     const std::string& unit = history.columns[c].unit;
-    const double own = std::max(largest_of(history.values[c]), scale_of_run(summary, unit));
+    const double own = std::max(largest_of(history.values[c]), of_run.of(unit));
     scales[unit] = std::max(scales[unit], own);
   }
   std::vector<Column> found;
   for (std::size_t c = 1; c < history.columns.size(); ++c) {
     const Column& column = history.columns[c];
-    const bool is_something = largest_of(history.values[c]) > rounding * scales[column.unit];
+    const bool is_something = largest_of(history.values[c]) > rounding_part * scales[column.unit];
     if (is_something && !is_bookkeeping(name, column.name)) found.push_back(column);
   }
   return found;
@@ -158,8 +155,9 @@ FramesOfRuns open_frames(const Levels& levels) {
   for (const Axis* axis : {&levels.mesh, &levels.step}) {
     for (const std::size_t run : axis->runs) {
       if (frames.contains(run)) continue;
-      if (find_run_files(folder_of(levels, run)).frames.empty()) return {};
-      frames.emplace(run, RunFrames(folder_of(levels, run)));
+      RunFiles files = find_run_files(folder_of(levels, run));
+      if (files.frames.empty()) return {};
+      frames.emplace(run, RunFrames(std::move(files)));
     }
   }
   return frames;
@@ -211,12 +209,12 @@ std::vector<StudyDifference> compare_histories(const Levels& levels, const Conve
   std::vector<StudyDifference> found;
   const std::optional<std::size_t> finest = finest_run(levels);
   if (!finest) return found;
-  const Summary& summary = *levels.standings[*finest].summary;
+  const RunScales of_run(*levels.standings[*finest].summary);
   for (const fs::path& file : find_run_files(folder_of(levels, *finest)).histories) {
     const std::string name = file.stem().string();
     const HistoryOfRuns runs = read_history(levels, name);
     const HistoryLevels history(levels, options, runs);
-    for (const Column& column : columns_with_something(runs.at(*finest), name, summary)) {
+    for (const Column& column : columns_with_something(runs.at(*finest), name, of_run)) {
       StudyDifference d{.name = name + "." + column.name, .unit = column.unit};
       Norms mesh = history.norms(levels.mesh, column.name);
       Norms step = history.norms(levels.step, column.name);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "udar/base/error.hpp"
 #include "udar/base/text.hpp"
 #include "udar/case/case_file.hpp"
 #include "udar/results/summary_numbers.hpp"
@@ -55,8 +56,7 @@ std::string state_name(Standing::State state) {
 }
 
 void judge(StudyQuantity& q, double scale, const Axis& mesh, const Axis& step, double tolerance) {
-  constexpr double rounding = 1e-9;
-  const Standard standard{.tolerance = tolerance, .zero = rounding * scale};
+  const Standard standard{.tolerance = tolerance, .zero = rounding_part * scale};
   const Axis& finest = mesh.is_refined() ? mesh : step;
   if (!finest.runs.empty()) q.value = q.values[finest.runs.back()];
   if (mesh.is_refined()) q.mesh = estimate_limit(along(mesh, q.values), mesh.sizes, standard);
@@ -163,8 +163,7 @@ std::vector<StudyQuantity> quantities_of(const std::vector<Standing>& standings,
   std::vector<StudyQuantity> kept;
   std::vector<double> kept_scales;
   for (std::size_t q = 0; q < quantities.size(); ++q) {
-    constexpr double rounding = 1e-9;
-    const auto is_something = [&](double v) { return std::fabs(v) > rounding * scales[q]; };
+    const auto is_something = [&](double v) { return std::fabs(v) > rounding_part * scales[q]; };
     if (std::none_of(quantities[q].values.begin(), quantities[q].values.end(), is_something)) continue;
     kept.push_back(std::move(quantities[q]));
     kept_scales.push_back(scales[q]);
@@ -196,7 +195,11 @@ Study analyse_convergence(const StudyInput& input, const std::filesystem::path& 
   tell_windows(study.quantities, load_case(input.file, input.assignments));
   study.warnings = warnings_of(study.runs);
   study.histories = compare_histories(levels, options);
-  study.fields = compare_fields(levels, options);
+  try {
+    study.fields = compare_fields(levels, options);
+  } catch (const UserError& error) {  // the numbers and histories are as good without
+    study.warnings.push_back("fields are not compared: " + error.diagnostics.front().message);
+  }
   mark_headlines(study, options.headlines);
   return study;
 }

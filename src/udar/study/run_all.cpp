@@ -11,7 +11,6 @@
 
 #include "udar/base/error.hpp"
 #include "udar/results/file.hpp"
-#include "udar/results/run_files.hpp"
 #include "udar/results/run_folder.hpp"
 #include "udar/results/study.hpp"
 #include "udar/simulation/simulation.hpp"
@@ -172,9 +171,12 @@ Standing look_at(const fs::path& folder, const PlannedRun& run) {
     throw UserError(ExitCode::usage, fmt::format("`{}` holds a run of another case", folder.string()),
                     "choose another folder with `--output`, or compute all runs again with `--force`");
   }
-  RunFiles files = find_run_files(folder);
-  if (!files.summary) return standing;
-  const Summary& s = *files.summary;
+  Summary s;
+  try {
+    s = read_summary(folder / RunFolder::summary);
+  } catch (const OutputError&) {
+    return standing;  // killed, or it still runs
+  }
   if (s.version != version_text()) {
     standing.reason = "computed by " + s.version;
     return standing;
@@ -193,7 +195,7 @@ Standing look_at(const fs::path& folder, const PlannedRun& run) {
     standing.reason = "stopped before its end";
     return standing;
   }
-  standing.summary = std::move(files.summary);
+  standing.summary = std::move(s);
   return standing;
 }
 

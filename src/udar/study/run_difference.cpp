@@ -150,20 +150,18 @@ struct TimeRange {
 
 /// Marks what is far below everything else of its unit, or below what the runs could make of it.
 void mark_negligible(std::vector<ColumnDifference>& columns, const HistorySource& a, const HistorySource& b) {
-  constexpr double rounding = 1e-9;
   const auto size = [](const ColumnDifference& c) {
     return c.difference.compared() ? std::max(c.difference.size, c.difference.size_of_a) : 0;
   };
   std::map<std::string, double> largest;
   for (const ColumnDifference& c : columns) largest[c.unit] = std::max(largest[c.unit], size(c));
-  for (auto& [unit, scale] : largest) {
-    for (const HistorySource* side : {&a, &b}) {
-      const bool told = side->run() != nullptr && side->run()->summary;
-      if (told) scale = std::max(scale, scale_of_run(*side->run()->summary, unit));
-    }
+  for (const HistorySource* side : {&a, &b}) {
+    if (side->run() == nullptr || !side->run()->summary) continue;
+    const RunScales of_run(*side->run()->summary);
+    for (auto& [unit, scale] : largest) scale = std::max(scale, of_run.of(unit));
   }
   for (ColumnDifference& c : columns) {
-    c.negligible = !c.unit.empty() && c.difference.compared() && size(c) <= rounding * largest[c.unit];
+    c.negligible = !c.unit.empty() && c.difference.compared() && size(c) <= rounding_part * largest[c.unit];
   }
 }
 
