@@ -89,9 +89,9 @@ class CommandLine(Program):
 
     def test_wrong_commands(self):
         for words, message, cure in [
-            ([], "a command is needed: run, check, converge, sweep, diff, report, plot, picture, movie or keys", "udar --help"),
+            ([], "a command is needed: run, resume, check, converge, sweep, diff, report, plot, picture, movie or keys", "udar --help"),
             (["rnu", "block.toml"], "`rnu` is no command", "did you mean `run`?"),
-            (["frobnicate"], "`frobnicate` is no command", "write run, check, converge, sweep, diff, report, plot, picture, movie or keys"),
+            (["frobnicate"], "`frobnicate` is no command", "write run, resume, check, converge, sweep, diff, report, plot, picture, movie or keys"),
             (["run"], "a case file is needed", "`udar run --help`"),
             (["report"], "the folder of a run is needed", "`udar report --help`"),
             (["report", "runs", "--frames", "1"], "--frames", "`udar report --help`"),
@@ -458,7 +458,7 @@ class Signals(Program):
                 self.assertEqual(err, b"")
                 self.assertIn(b"interrupted", out)
         for folder in ["runs/long", "runs/long-2"]:
-            self.assertEqual(self.names(folder), WHOLE)
+            self.assertEqual(self.names(folder), WHOLE | {"checkpoint_a.bin"})
             summary = self.summary(folder)
             self.assertEqual(summary["stop_reason"], "interrupted")
             self.assertGreater(summary["steps"], 0)

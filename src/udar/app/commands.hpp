@@ -25,6 +25,7 @@ struct Command {
 using AddCommand = Command (*)(CLI::App& app);
 
 Command add_run(CLI::App& app);
+Command add_resume(CLI::App& app);
 Command add_check(CLI::App& app);
 Command add_report(CLI::App& app);
 Command add_keys(CLI::App& app);

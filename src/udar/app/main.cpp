@@ -31,15 +31,14 @@ constexpr const char* footer = R"(Examples:
   udar diff runs/coarse runs/short-beam
 
 Exit codes:
-  0 done                 3 wrong case                  6 results could not be written
-  1 internal error       4 wrong mesh                  7 out of memory or threads
-  2 wrong command line   5 stopped by a numerical      9 not within what --within asks for
-                           failure                     130, 143 stopped by Ctrl-C or SIGTERM
-                                                         with everything saved)";
+  0 done                  5 stopped by a numerical failure   9 not within what --within asks for
+  1 internal error        6 results could not be written     129, 130, 143 stopped by SIGHUP, Ctrl-C,
+  2 wrong command line    7 out of memory or threads             SIGTERM with everything saved; go on
+  3 wrong case, 4 mesh    8 no checkpoint to go on from          with `udar resume`)";
 
 /// What adds each command, in the order of the help.
-constexpr std::array add_commands{add_run,    add_check, add_converge, add_sweep, add_diff,
-                                  add_report, add_plot,  add_picture,  add_movie, add_keys};
+constexpr std::array add_commands{add_run,    add_resume, add_check,   add_converge, add_sweep, add_diff,
+                                  add_report, add_plot,   add_picture, add_movie,    add_keys};
 
 std::vector<std::string> names_of(const CLI::App& app) {
   std::vector<std::string> names;

@@ -135,6 +135,7 @@ void for_each_member(T& s, Visit visit) {
   visit("nodes", s.nodes);
   visit("steps", s.steps);
   visit("threads", s.threads);
+  visit("resumed", s.resumed);
   visit("wall_seconds", s.wall_seconds);
   visit("stepping_seconds", s.stepping_seconds);
   visit("element_steps_per_second", s.element_steps_per_second);

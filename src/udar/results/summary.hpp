@@ -24,6 +24,11 @@ struct HistorySummary {
   double last = no_number;
   double time_of_min = no_number;  ///< s
   double time_of_max = no_number;  ///< s
+
+  template <class Archive>
+  void carry(Archive& archive) {
+    archive(min, max, max_abs, last, time_of_min, time_of_max);
+  }
 };
 
 /// One interval with contact force between an obstacle and the bodies, or between two bodies. What belongs to the place
@@ -140,6 +145,7 @@ struct Summary {
   long long nodes = 0;
   long long steps = 0;
   int threads = 1;
+  int resumed = 0;              ///< how often the run was stopped and gone on with; times below are of all its parts
   double wall_seconds = 0;      ///< of the whole run, output included
   double stepping_seconds = 0;  ///< of these, from the first step to the last
   double element_steps_per_second = 0;
