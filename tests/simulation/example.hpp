@@ -82,7 +82,7 @@ static_assert(sizeof(DeepestTouch) ==
 static_assert(sizeof(PairBook) == 2 * sizeof(Index) + sizeof(ContactBook));
 static_assert(sizeof(SpinBook) == 4 * sizeof(double) + sizeof(CompensatedSum));
 static_assert(sizeof(Ledger) == force_kinds * sizeof(ForceBook) + spin_kinds * sizeof(SpinBook) +
-                                    6 * sizeof(CompensatedSum) + 16 * sizeof(double) + 3 * sizeof(Vec2));
+                                    7 * sizeof(CompensatedSum) + 17 * sizeof(double) + 3 * sizeof(Vec2));
 
 /// Momentum and spin of all bodies, with the velocity of the coming step.
 struct Totals {

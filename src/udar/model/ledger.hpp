@@ -46,13 +46,15 @@ struct Ledger {
   CompensatedSum plastic_work;  ///< J
 
   // Spring side.
-  double contact_energy = 0;      ///< J, in normal contact springs now
-  double tangential_energy = 0;   ///< J, in tangential contact springs now
-  double tie_energy = 0;          ///< J, in ties now
-  CompensatedSum friction_work;   ///< J, lost in sliding
-  CompensatedSum dropped_energy;  ///< J, of tangential springs whose node left or changed face
-  CompensatedSum obstacle_work;   ///< J, given by moving obstacles, through the middle of the coming step
-  double obstacle_work_now = 0;   ///< J, through t_n
+  double contact_energy = 0;             ///< J, in normal contact springs now
+  double tangential_energy = 0;          ///< J, in tangential contact springs now
+  double tie_energy = 0;                 ///< J, in ties now
+  CompensatedSum friction_work;          ///< J, lost in sliding
+  CompensatedSum dropped_energy;         ///< J, of tangential springs whose node left or changed face
+  CompensatedSum obstacle_work;          ///< J, given by moving obstacles, through the middle of the coming step
+  double obstacle_work_now = 0;          ///< J, through t_n
+  CompensatedSum obstacle_damping_work;  ///< J, part of the obstacles' work that their dashpots swallow at once
+  double obstacle_damping_now = 0;       ///< J, through t_n
 
   // Node side.
   double start_energy = 0;       ///< J, kinetic and in contact springs at t = 0
@@ -87,9 +89,10 @@ struct Ledger {
   }
 
   [[nodiscard]] double elastic_energy() const { return stress_work.value() - plastic_work.value(); }
-  /// Lost in mass damping and contact damping, J at t_n.
+  /// Lost in mass damping and contact damping, J at t_n. A dashpot has two ends: what an obstacle that moves does on
+  /// its own is lost as well as what nodes do on theirs.
   [[nodiscard]] double damped_energy() const {
-    return -(book(ForceKind::damping).work_now + book(ForceKind::contact_damping).work_now);
+    return obstacle_damping_now - book(ForceKind::damping).work_now - book(ForceKind::contact_damping).work_now;
   }
   /// Gravity, loads, supports and moving obstacles, J at t_n.
   [[nodiscard]] double external_work() const {

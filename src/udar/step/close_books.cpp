@@ -112,6 +112,7 @@ void enter_corners(const Model& model, const State& state, const Booking& bookin
       all.add(forces, before, after);
       of_obstacle.pressing.add(forces.normal + forces.damping, before, after);
       of_obstacle.total.add(forces.total(), before, after);
+      of_obstacle.damping += forces.damping;
       of_obstacle.total.moment += cross(place(state, model.contact_nodes[point]), forces.total());
     });
   }
@@ -132,11 +133,16 @@ Account sum_ties(const Model& model, const BodyContact& contact, const Booking& 
   return account;
 }
 
-/// Contact forces, obstacle by obstacle and touch by touch; returns the account of the moving obstacles' own work, with
-/// the moment of all obstacles' forces on the bodies.
-Account enter_contacts(const Model& model, State& state, Workspace& work, const Booking& booking) {
+/// What moving obstacles do themselves, W; and the moment of all obstacles' forces on the bodies.
+struct ObstacleAccounts {
+  Account work;
+  Account damping;  ///< of `work` what goes into dashpots
+};
+
+/// Contact forces, obstacle by obstacle and touch by touch; returns the accounts of the obstacles' own work.
+ObstacleAccounts enter_contacts(const Model& model, State& state, Workspace& work, const Booking& booking) {
   ContactAccounts all;
-  Account obstacle_work;
+  ObstacleAccounts obstacles;
   const std::size_t count = model.contact_nodes.size();
   const std::size_t blocks = model.node_blocks.size();
   std::vector<PairForces>& corners = work.bodies.corner_forces;
@@ -145,6 +151,7 @@ Account enter_contacts(const Model& model, State& state, Workspace& work, const 
     const Vec2 velocity = model.obstacles[o].velocity;
     Account total = corners[o].total;
     Account pressing = corners[o].pressing;
+    Vec2 damping = corners[o].damping;
     for (std::size_t b = 0; b < blocks; ++b) {
       if (work.contact_sums[o * blocks + b].touching == 0) continue;
       for (std::size_t c = work.outer_nodes[b].contact_begin; c < work.outer_nodes[b].contact_end; ++c) {
@@ -155,21 +162,23 @@ Account enter_contacts(const Model& model, State& state, Workspace& work, const 
         all.add({springs.normal_force, springs.friction_force, springs.damping_force}, before, after);
         const Vec2 pressing_force = springs.normal_force + springs.damping_force;
         pressing.add(pressing_force, before, after);
+        damping += springs.damping_force;
         total.add(pressing_force + springs.friction_force, before, after);
         total.moment += cross(place(state, model.contact_nodes[c]), pressing_force + springs.friction_force);
       }
     }
     booking.enter(total, state.obstacles[o].total);
     booking.enter(pressing, state.obstacles[o].normal);
-    obstacle_work.add(total.force, velocity, velocity);
-    obstacle_work.moment += total.moment;
+    obstacles.work.add(total.force, velocity, velocity);
+    obstacles.work.moment += total.moment;
+    obstacles.damping.add(damping, velocity, velocity);
   }
   enter_touches(model, state, work, booking, all);
   booking.enter(all.normal, state.ledger.book(ForceKind::contact));
   booking.enter(all.friction, state.ledger.book(ForceKind::friction));
   booking.enter(all.damping, state.ledger.book(ForceKind::contact_damping));
   booking.enter(sum_ties(model, work.bodies, booking), state.ledger.book(ForceKind::tie));
-  return obstacle_work;
+  return obstacles;
 }
 
 /// Forces that are kept node by node, of loads or of supports.
@@ -329,24 +338,26 @@ void close_books(const Model& model, State& state, Workspace& work) {
   ledger.carried = nodes.carried;
   const Account loads = sum_forces(model.loads, state, state.load_forces, booking);
   const Account supports = sum_forces(model.supports, state, state.support_forces, booking);
-  const Account obstacles = enter_contacts(model, state, work, booking);
+  const ObstacleAccounts obstacles = enter_contacts(model, state, work, booking);
   booking.enter(gravity, ledger.book(ForceKind::gravity));
   booking.enter(loads, ledger.book(ForceKind::load));
   booking.enter(supports, ledger.book(ForceKind::support));
   booking.enter({nodes.damping_force, nodes.damping_before, nodes.damping_after}, ledger.book(ForceKind::damping));
-  booking.enter(obstacles.moment, ledger.spin_book(SpinKind::obstacle));
+  booking.enter(obstacles.work.moment, ledger.spin_book(SpinKind::obstacle));
   booking.enter(gravity.moment, ledger.spin_book(SpinKind::gravity));
   booking.enter(loads.moment, ledger.spin_book(SpinKind::load));
   booking.enter(supports.moment, ledger.spin_book(SpinKind::support));
   booking.enter(nodes.damping_moment, ledger.spin_book(SpinKind::damping));
   ledger.book(ForceKind::internal).work.add(0.5 * velocity_span(state.clock) * nodes.internal_power);
 
-  ledger.obstacle_work_now = ledger.obstacle_work.value() + booking.work_until_now(obstacles);
-  ledger.obstacle_work.add(booking.work(obstacles));
+  ledger.obstacle_work_now = ledger.obstacle_work.value() + booking.work_until_now(obstacles.work);
+  ledger.obstacle_work.add(booking.work(obstacles.work));
+  ledger.obstacle_damping_now = ledger.obstacle_damping_work.value() + booking.work_until_now(obstacles.damping);
+  ledger.obstacle_damping_work.add(booking.work(obstacles.damping));
   Account external = gravity;
   external += loads;
   external += supports;
-  external += obstacles;
+  external += obstacles.work;
   ledger.external_throughput.add(std::fabs(booking.work(external)));
 
   ledger.energy_gap = std::max(ledger.energy_gap, std::fabs(ledger.energy_balance()));
