@@ -35,6 +35,7 @@ Command add_movie(CLI::App& app);
 Command add_converge(CLI::App& app);
 Command add_sweep(CLI::App& app);
 Command add_diff(CLI::App& app);
+Command add_verify(CLI::App& app);
 
 /// A case and the changes made to it, as several commands take them.
 struct CaseArguments {

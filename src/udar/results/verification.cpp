@@ -1,0 +1,213 @@
+#include "udar/results/verification.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "udar/results/json_members.hpp"
+
+namespace udar {
+
+constexpr int verification_schema = 1;
+
+namespace {
+
+/// The name of a kind in verify.json.
+const char* name_of(CheckKind kind) {
+  switch (kind) {
+    case CheckKind::relative:
+      return "relative";
+    case CheckKind::absolute:
+      return "absolute";
+    case CheckKind::equal:
+      return "equal";
+    case CheckKind::at_most:
+      return "at_most";
+    case CheckKind::below:
+      return "below";
+    case CheckKind::at_least:
+      return "at_least";
+    case CheckKind::above:
+      return "above";
+    case CheckKind::between:
+      return "between";
+    case CheckKind::order:
+      return "order";
+    case CheckKind::holds:
+      return "holds";
+  }
+  return "";
+}
+
+/// A number with so many digits and its unit; "" where there is none.
+std::string number(double value, int digits, const std::string& unit) {
+  if (std::isnan(value)) return "";
+  return fmt::format("{:.{}g}{}{}", value, digits, unit.empty() ? "" : " ", unit);
+}
+
+std::string bound_words(const CheckRow& row) {
+  const std::string bound = number(row.bound, 3, row.unit);
+  switch (row.kind) {
+    case CheckKind::relative:
+      return fmt::format("≤ {:.3g}", row.bound);
+    case CheckKind::absolute:
+      return "≤ " + bound;
+    case CheckKind::equal:
+      return "equal";
+    case CheckKind::at_most:
+      return "≤ " + bound;
+    case CheckKind::below:
+      return "< " + bound;
+    case CheckKind::at_least:
+      return "≥ " + bound;
+    case CheckKind::above:
+      return "> " + bound;
+    case CheckKind::between:
+      return fmt::format("{:.4g} … {}", row.bound, number(row.upper, 4, row.unit));
+    case CheckKind::order:
+      return std::isinf(row.upper) ? "≥ " + bound : fmt::format("{:.3g} … {:.3g}", row.bound, row.upper);
+    case CheckKind::holds:
+      return "";
+  }
+  return "";
+}
+
+}  // namespace
+
+Json json_of(CheckKind kind) { return name_of(kind); }
+
+template <Is<CheckRow> T, class Visit>
+void for_each_member(T& r, Visit visit) {
+  visit("kind", r.kind);
+  visit("setting", r.setting);
+  visit("what", r.what);
+  visit("unit", r.unit);
+  visit("computed", r.computed);
+  visit("exact", r.exact);
+  visit("error", r.error);
+  visit("bound", r.bound);
+  visit("upper", r.upper);
+  visit("holds", r.holds);
+}
+
+template <Is<ErrorSeries> T, class Visit>
+void for_each_member(T& s, Visit visit) {
+  visit("what", s.what);
+  visit("size", s.size);
+  visit("size_unit", s.size_unit);
+  visit("sizes", s.sizes);
+  visit("errors", s.errors);
+  visit("bounds", s.bounds);
+  visit("order", s.order);
+  visit("expected", s.expected);
+}
+
+template <Is<CheckLine> T, class Visit>
+void for_each_member(T& l, Visit visit) {
+  visit("name", l.name);
+  visit("exact", l.exact);
+  visit("x", l.x);
+  visit("y", l.y);
+}
+
+template <Is<CheckCurve> T, class Visit>
+void for_each_member(T& c, Visit visit) {
+  visit("title", c.title);
+  visit("x_label", c.x_label);
+  visit("x_unit", c.x_unit);
+  visit("y_label", c.y_label);
+  visit("y_unit", c.y_unit);
+  visit("lines", c.lines);
+}
+
+template <Is<VerifiedPart> T, class Visit>
+void for_each_member(T& p, Visit visit) {
+  visit("name", p.name);
+  visit("long", p.is_long);
+  visit("seconds", p.seconds);
+  visit("checks", p.rows);
+  visit("series", p.series);
+  visit("curves", p.curves);
+  visit("notes", p.notes);
+}
+
+template <Is<VerifiedProblem> T, class Visit>
+void for_each_member(T& p, Visit visit) {
+  visit("id", p.id);
+  visit("title", p.title);
+  visit("topic", p.topic);
+  visit("parts", p.parts);
+}
+
+template <Is<Verification> T, class Visit>
+void for_each_member(T& v, Visit visit) {
+  visit("version", v.version);
+  visit("processor", v.processor);
+  visit("date", v.date);
+  visit("seconds", v.seconds);
+  visit("cores", v.cores);
+  visit("with_long", v.with_long);
+  visit("problems", v.problems);
+}
+
+void CheckCount::add(const VerifiedPart& part) {
+  for (const CheckRow& row : part.rows) held += row.holds ? 1 : 0;
+  all += part.rows.size();
+}
+
+CheckCount count_of(const VerifiedProblem& problem) {
+  CheckCount count;
+  for (const VerifiedPart& part : problem.parts) count.add(part);
+  return count;
+}
+
+CheckCount count_of(const Verification& verification) {
+  CheckCount count;
+  for (const VerifiedProblem& problem : verification.problems) {
+    for (const VerifiedPart& part : problem.parts) count.add(part);
+  }
+  return count;
+}
+
+std::vector<std::vector<const CheckRow*>> grouped(const VerifiedPart& part) {
+  std::vector<std::vector<const CheckRow*>> groups;
+  for (const CheckRow& row : part.rows) {
+    const auto same =
+        std::find_if(groups.begin(), groups.end(), [&](const auto& group) { return group.front()->what == row.what; });
+    if (same == groups.end()) {
+      groups.push_back({&row});
+    } else {
+      same->push_back(&row);
+    }
+  }
+  return groups;
+}
+
+double seconds_of(const VerifiedProblem& problem) {
+  double seconds = 0;
+  for (const VerifiedPart& part : problem.parts) seconds += part.seconds;
+  return seconds;
+}
+
+CheckWords words_of(const CheckRow& row) {
+  CheckWords words{.computed = number(row.computed, row.kind == CheckKind::order ? 3 : 6, row.unit),
+                   .exact = number(row.exact, row.kind == CheckKind::order ? 3 : 6, row.unit),
+                   .error = number(row.error, 3, row.kind == CheckKind::absolute ? row.unit : ""),
+                   .bound = bound_words(row),
+                   .verdict = row.holds ? "holds" : "FAILS"};
+  if (words.computed.empty() && row.kind != CheckKind::holds) words.computed = "no number";
+  return words;
+}
+
+std::string to_json(const Verification& verification) {
+  const CheckCount count = count_of(verification);
+  Json json = Json::object();
+  json["schema"] = verification_schema;
+  json["checks"] = count.all;
+  json["checks_held"] = count.held;
+  json.update(json_of(verification));
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace udar

@@ -1,0 +1,150 @@
+#include "udar/verification/checks.hpp"
+
+#include <cmath>
+#include <utility>
+
+namespace udar {
+namespace {
+
+/// Slope of the straight line through the points (log size, log error) by least squares.
+double slope_through(const std::vector<double>& sizes, const std::vector<double>& errors) {
+  const auto count = static_cast<double>(sizes.size());
+  double mean_x = 0;
+  double mean_y = 0;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    mean_x += std::log(sizes[i]) / count;
+    mean_y += std::log(errors[i]) / count;
+  }
+  double products = 0;
+  double squares = 0;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    const double x = std::log(sizes[i]) - mean_x;
+    products += x * (std::log(errors[i]) - mean_y);
+    squares += x * x;
+  }
+  return products / squares;
+}
+
+}  // namespace
+
+double order_of(const ErrorSeries& series, OrderFrom from) {
+  const std::size_t count = series.sizes.size();
+  if (count < 2 || series.errors.size() != count) return std::nan("");
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!(series.sizes[i] > 0 && series.errors[i] > 0)) return std::nan("");
+  }
+  if (from == OrderFrom::fit) return slope_through(series.sizes, series.errors);
+  const std::size_t first = from == OrderFrom::ends ? 0 : count - 2;
+  return std::log(series.errors[first] / series.errors.back()) / std::log(series.sizes[first] / series.sizes.back());
+}
+
+bool Checks::add(CheckRow row) {
+  if (row.kind != CheckKind::holds && !std::isfinite(row.computed)) row.holds = false;
+  if (row.kind != CheckKind::order) row.setting = setting_;
+  part_.rows.push_back(std::move(row));
+  return part_.rows.back().holds;
+}
+
+bool Checks::within(const std::string& what, double computed, double exact, double bound, const std::string& unit) {
+  const double error = std::fabs(computed - exact) / std::fabs(exact);
+  return add({.kind = CheckKind::relative,
+              .what = what,
+              .unit = unit,
+              .computed = computed,
+              .exact = exact,
+              .error = error,
+              .bound = bound,
+              .holds = error <= bound});
+}
+
+bool Checks::near(const std::string& what, double computed, double exact, double bound, const std::string& unit) {
+  const double error = std::fabs(computed - exact);
+  return add({.kind = CheckKind::absolute,
+              .what = what,
+              .unit = unit,
+              .computed = computed,
+              .exact = exact,
+              .error = error,
+              .bound = bound,
+              .holds = error <= bound});
+}
+
+bool Checks::equal(const std::string& what, double computed, double exact, const std::string& unit) {
+  return add({.kind = CheckKind::equal,
+              .what = what,
+              .unit = unit,
+              .computed = computed,
+              .exact = exact,
+              .holds = computed == exact});
+}
+
+bool Checks::at_most(const std::string& what, double computed, double bound, const std::string& unit) {
+  return add({.kind = CheckKind::at_most,
+              .what = what,
+              .unit = unit,
+              .computed = computed,
+              .bound = bound,
+              .holds = computed <= bound});
+}
+
+bool Checks::below(const std::string& what, double computed, double bound, const std::string& unit) {
+  return add({.kind = CheckKind::below,
+              .what = what,
+              .unit = unit,
+              .computed = computed,
+              .bound = bound,
+              .holds = computed < bound});
+}
+
+bool Checks::at_least(const std::string& what, double computed, double bound, const std::string& unit) {
+  return add({.kind = CheckKind::at_least,
+              .what = what,
+              .unit = unit,
+              .computed = computed,
+              .bound = bound,
+              .holds = computed >= bound});
+}
+
+bool Checks::above(const std::string& what, double computed, double bound, const std::string& unit) {
+  return add({.kind = CheckKind::above,
+              .what = what,
+              .unit = unit,
+              .computed = computed,
+              .bound = bound,
+              .holds = computed > bound});
+}
+
+bool Checks::between(const std::string& what, double computed, double low, double high, const std::string& unit) {
+  return add({.kind = CheckKind::between,
+              .what = what,
+              .unit = unit,
+              .computed = computed,
+              .bound = low,
+              .upper = high,
+              .holds = computed >= low && computed <= high});
+}
+
+bool Checks::order(ErrorSeries series, const OrderBound& bound) {
+  series.order = order_of(series, bound.from);
+  series.expected = bound.expected;
+  const bool held = add({.kind = CheckKind::order,
+                         .what = "order of " + series.what,
+                         .computed = series.order,
+                         .exact = bound.expected,
+                         .bound = bound.least,
+                         .upper = bound.most,
+                         .holds = series.order >= bound.least && series.order <= bound.most});
+  part_.series.push_back(std::move(series));
+  return held;
+}
+
+bool Checks::holds(const std::string& what, bool is_true) {
+  return add({.kind = CheckKind::holds, .what = what, .holds = is_true});
+}
+
+void Checks::series(ErrorSeries series) {
+  series.order = order_of(series);
+  part_.series.push_back(std::move(series));
+}
+
+}  // namespace udar
