@@ -124,7 +124,7 @@ TEST_CASE("the words of a row") {
     const CheckWords w = words_of(part.rows[row]);
     return w.computed + "|" + w.exact + "|" + w.error + "|" + w.bound + "|" + w.verdict;
   };
-  CHECK(words(0) == "1.25 m|1 m|0.25|≤ 0.125|FAILS");
+  CHECK(words(0) == "1.25 m|1 m|25 %|≤ 12.5 %|FAILS");
   CHECK(words(1) == "1.25 m|1 m|0.25 m|≤ 0.5 m|holds");
   CHECK(words(2) == "2|2||1.8 … 2.2|holds");
   CHECK(words(3) == "no number|||≥ 3 N|FAILS");

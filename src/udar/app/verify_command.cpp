@@ -1,6 +1,7 @@
 #include <poll.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -11,6 +12,8 @@
 #include "udar/app/terminal.hpp"
 #include "udar/app/verify_table.hpp"
 #include "udar/parallel/for_each.hpp"
+#include "udar/report/verification_page.hpp"
+#include "udar/simulation/machine.hpp"
 #include "udar/simulation/simulation.hpp"
 #include "udar/verification/run_problems.hpp"
 
@@ -70,7 +73,13 @@ std::string status_of(const ProblemRuns& runs, double seconds) {
 Verification run_all(const Arguments& arguments, std::vector<verification::Problem> problems) {
   const int cores = arguments.cores > 0 ? arguments.cores : available_threads();
   const auto begin = std::chrono::steady_clock::now();
-  Verification all{.version = version_text(), .cores = cores, .with_long = arguments.which() != Which::quick};
+  std::string date = now_text().substr(0, std::string_view("2026-01-31T12:00").size());
+  std::replace(date.begin(), date.end(), 'T', ' ');
+  Verification all{.version = version_text(),
+                   .processor = this_machine().processor,
+                   .date = date,
+                   .cores = cores,
+                   .with_long = arguments.which() != Which::quick};
   ProblemRuns runs(std::move(problems), cores);
   constexpr int look_every = 50;  // ms
   for (std::size_t k = 0; k < runs.count(); ++k) {
@@ -108,8 +117,13 @@ ExitCode verify(const Arguments& arguments) {
   if (problems.empty()) {
     throw UserError(ExitCode::usage, "these problems have no long parts", "leave out `--only-long`");
   }
+  if (!arguments.output.empty()) check_verification_folder(arguments.output);
   catch_signals();
   const Verification all = run_all(arguments, std::move(problems));
+  if (!arguments.output.empty()) {
+    write_verification(arguments.output, all);
+    say("{}: the manual, with plots\n", (fs::path(arguments.output) / VerificationFiles::page).string());
+  }
   say_text(failures_of(all));
   const CheckCount count = count_of(all);
   say("{} of {} checks hold, of {}, in {:.3g} s\n", count.held, count.all,
@@ -128,6 +142,10 @@ Command add_verify(CLI::App& app) {
   words->add_flag("--long", arguments->with_long, "Also the parts that take minutes");
   words->add_flag("--only-long", arguments->only_long, "Only these");
   words->add_flag("--brief", arguments->brief, "A line for each problem, and the checks that fail");
+  words
+      ->add_option("--output", arguments->output,
+                   "Folder for verification.html, verification.md with its pictures, and verify.json")
+      ->type_name("DIR");
   words
       ->add_option("--cores", arguments->cores,
                    "How many parts are computed at a time; else as many as there are cores")

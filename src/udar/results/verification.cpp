@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "udar/base/human_unit.hpp"
 #include "udar/results/json_members.hpp"
 
 namespace udar {
@@ -40,17 +41,47 @@ const char* name_of(CheckKind kind) {
   return "";
 }
 
-/// A number with so many digits and its unit; "" where there is none.
-std::string number(double value, int digits, const std::string& unit) {
-  if (std::isnan(value)) return "";
-  return fmt::format("{:.{}g}{}{}", value, digits, unit.empty() ? "" : " ", unit);
+/// "1.23", without an exponent where a plain number says it as well.
+std::string plain(double value, int digits) {
+  std::string text = fmt::format("{:.{}g}", value, digits);
+  if (text.find('e') == std::string::npos || std::fabs(value) >= 1e6 || std::fabs(value) < 1) return text;
+  return fmt::format("{:.0f}", value);
 }
 
-std::string bound_words(const CheckRow& row) {
-  const std::string bound = number(row.bound, 3, row.unit);
+/// "0.35 %" of an error that is relative; small ones as they are.
+std::string part(double error) {
+  if (std::isnan(error)) return "";
+  return error >= 1e-5 && error < 10 ? plain(100 * error, 3) + " %" : plain(error, 3);
+}
+
+/// A row's numbers are all in the unit that suits the largest of computed and exact.
+struct RowNumbers {
+  explicit RowNumbers(const CheckRow& row) {
+    const bool known = std::isfinite(row.exact);
+    const double size = std::max(std::fabs(row.computed), known ? std::fabs(row.exact) : 0.0);
+    // Rounding of a force is 1e-12 N, not 1e-9 mN.
+    unit = size > 1e-9 && size < 1e12 ? human_unit(row.unit, size) : HumanUnit{typeset(row.unit), 1};
+    if (row.unit.empty()) unit = {};
+    // Beside an exact value, or close to a bound, more digits tell something.
+    const bool close = std::fabs(row.computed - row.bound) <= 0.01 * std::fabs(row.bound);
+    digits = row.kind == CheckKind::order ? 3 : known || close ? 6 : 4;
+  }
+  [[nodiscard]] std::string text(double value, int of_digits) const {
+    if (std::isnan(value)) return "";
+    return plain(value / unit.size, of_digits) + (unit.name.empty() ? "" : " " + unit.name);
+  }
+  [[nodiscard]] std::string text(double value) const { return text(value, digits); }
+
+  HumanUnit unit;
+  int digits = 4;
+};
+
+std::string bound_words(const CheckRow& row, const RowNumbers& numbers) {
+  const int digits = numbers.digits == 6 && std::isnan(row.exact) ? 6 : 3;  // a close bound has as many as its number
+  const std::string bound = numbers.text(row.bound, digits);
   switch (row.kind) {
     case CheckKind::relative:
-      return fmt::format("≤ {:.3g}", row.bound);
+      return "≤ " + part(row.bound);
     case CheckKind::absolute:
       return "≤ " + bound;
     case CheckKind::equal:
@@ -64,9 +95,9 @@ std::string bound_words(const CheckRow& row) {
     case CheckKind::above:
       return "> " + bound;
     case CheckKind::between:
-      return fmt::format("{:.4g} … {}", row.bound, number(row.upper, 4, row.unit));
+      return fmt::format("{} … {}", bound, numbers.text(row.upper, digits));
     case CheckKind::order:
-      return std::isinf(row.upper) ? "≥ " + bound : fmt::format("{:.3g} … {:.3g}", row.bound, row.upper);
+      return std::isinf(row.upper) ? "≥ " + bound : bound + " … " + numbers.text(row.upper, 3);
     case CheckKind::holds:
       return "";
   }
@@ -191,10 +222,12 @@ double seconds_of(const VerifiedProblem& problem) {
 }
 
 CheckWords words_of(const CheckRow& row) {
-  CheckWords words{.computed = number(row.computed, row.kind == CheckKind::order ? 3 : 6, row.unit),
-                   .exact = number(row.exact, row.kind == CheckKind::order ? 3 : 6, row.unit),
-                   .error = number(row.error, 3, row.kind == CheckKind::absolute ? row.unit : ""),
-                   .bound = bound_words(row),
+  const RowNumbers numbers(row);
+  const bool absolute = row.kind == CheckKind::absolute;
+  CheckWords words{.computed = numbers.text(row.computed),
+                   .exact = numbers.text(row.exact),
+                   .error = absolute ? numbers.text(row.error, 3) : part(row.error),
+                   .bound = bound_words(row, numbers),
                    .verdict = row.holds ? "holds" : "FAILS"};
   if (words.computed.empty() && row.kind != CheckKind::holds) words.computed = "no number";
   return words;

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <ctime>
 
 #include "udar/case/build_model.hpp"
 #include "udar/output/summarise.hpp"
 #include "udar/results/file.hpp"
 #include "udar/simulation/checkpoint.hpp"
 #include "udar/simulation/last_good.hpp"
+#include "udar/simulation/machine.hpp"
 #include "udar/simulation/run_output.hpp"
 #include "udar/step/step.hpp"
 
@@ -20,31 +20,6 @@ namespace {
 
 double seconds_since(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-}
-
-/// Now, in UTC: "2025-07-01T12:34:56Z".
-std::string now_text() {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  ::gmtime_r(&now, &parts);
-  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", parts.tm_year + 1900, parts.tm_mon + 1, parts.tm_mday,
-                     parts.tm_hour, parts.tm_min, parts.tm_sec);
-}
-
-MachineSummary this_machine() {
-  MachineSummary machine{.processor = "", .threads = available_threads()};
-  std::string text;
-  try {
-    text = read_file("/proc/cpuinfo", std::size_t{1} << 24);
-  } catch (const OutputError&) {
-    return machine;  // other systems have no such file
-  }
-  const std::size_t row = text.find("model name");
-  const std::size_t colon = text.find(": ", row);
-  if (row != std::string::npos && colon < text.find('\n', row)) {
-    machine.processor = text.substr(colon + 2, text.find('\n', colon) - colon - 2);
-  }
-  return machine;
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "udar/verification/checks.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -23,6 +25,31 @@ double slope_through(const std::vector<double>& sizes, const std::vector<double>
     squares += x * x;
   }
   return products / squares;
+}
+
+constexpr std::size_t most_points = 2000;
+
+/// At most so many points of a line: the first, the extremes and the last of stretches of equal length.
+CheckLine thinned(CheckLine line) {
+  const std::size_t count = line.x.size();
+  if (count <= most_points) return line;
+  CheckLine few{.name = line.name, .exact = line.exact, .x = {}, .y = {}};
+  const std::size_t stretches = most_points / 4;
+  for (std::size_t k = 0; k < stretches; ++k) {
+    const std::size_t begin = k * count / stretches;
+    const std::size_t end = (k + 1) * count / stretches;
+    const auto [least, most] = std::minmax_element(line.y.begin() + static_cast<std::ptrdiff_t>(begin),
+                                                   line.y.begin() + static_cast<std::ptrdiff_t>(end));
+    std::array<std::size_t, 4> kept{begin, static_cast<std::size_t>(least - line.y.begin()),
+                                    static_cast<std::size_t>(most - line.y.begin()), end - 1};
+    std::sort(kept.begin(), kept.end());
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      if (i > 0 && kept[i] == kept[i - 1]) continue;
+      few.x.push_back(line.x[kept[i]]);
+      few.y.push_back(line.y[kept[i]]);
+    }
+  }
+  return few;
 }
 
 }  // namespace
@@ -140,6 +167,11 @@ bool Checks::order(ErrorSeries series, const OrderBound& bound) {
 
 bool Checks::holds(const std::string& what, bool is_true) {
   return add({.kind = CheckKind::holds, .what = what, .holds = is_true});
+}
+
+void Checks::curve(CheckCurve curve) {
+  for (CheckLine& line : curve.lines) line = thinned(std::move(line));
+  part_.curves.push_back(std::move(curve));
 }
 
 void Checks::series(ErrorSeries series) {

@@ -59,8 +59,8 @@ class Checks {
 
   /// Errors that are drawn, with the order of the last two, and not judged.
   void series(ErrorSeries series);
-  /// Something computed that is drawn beside what is exact.
-  void curve(CheckCurve curve) { part_.curves.push_back(std::move(curve)); }
+  /// Something computed that is drawn beside what is exact. Of long lines the extremes of short stretches are kept.
+  void curve(CheckCurve curve);
   /// A sentence for the page.
   void note(std::string text) { part_.notes.push_back(std::move(text)); }
 
