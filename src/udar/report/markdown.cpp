@@ -96,7 +96,7 @@ class Blocks {
   void add(std::string_view line) {
     if (kind_ == Kind::code) {
       if (line.starts_with("```")) return close();
-      body_ += std::string(line) + "\n";
+      body_ += escape_xml(line) + "\n";
     } else if (line.starts_with("```")) {
       open(Kind::code);
     } else if (line.find_first_not_of(' ') == line.npos) {
@@ -112,10 +112,10 @@ class Blocks {
       if (kind_ != Kind::list) open(Kind::list);
       items_.emplace_back(line.substr(2));
     } else if (kind_ == Kind::list) {
-      items_.back() += "\n" + std::string(line);
+      items_.back() += " " + std::string(line);
     } else {
       if (kind_ != Kind::paragraph) open(Kind::paragraph);
-      body_ += std::string(line) + "\n";
+      body_ += (body_.empty() ? "" : " ") + std::string(line);
     }
   }
   std::string finish() {
@@ -132,7 +132,7 @@ class Blocks {
   }
   void close() {
     if (kind_ == Kind::paragraph) out_ += "<p>" + inline_html(body_, relink_) + "</p>\n";
-    if (kind_ == Kind::code) out_ += "<pre>" + escape_xml(body_) + "</pre>\n";
+    if (kind_ == Kind::code) out_ += "<pre>" + body_ + "</pre>\n";
     if (kind_ == Kind::list) {
       out_ += "<ul>\n";
       for (const std::string& item : items_) out_ += "<li>" + inline_html(item, relink_) + "</li>\n";

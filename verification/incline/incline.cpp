@@ -1,9 +1,13 @@
-#include <doctest/doctest.h>
+// incline: a block that slides, sticks or comes to rest by Coulomb's law. See README.md.
 
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "problem.hpp"
+#include "run.hpp"
+#include "udar/verification/problem.hpp"
 
 namespace udar::verification {
 namespace {
@@ -33,7 +37,7 @@ struct Slope {
   [[nodiscard]] Vec2 down() const { return {std::cos(slope_turn()), std::sin(slope_turn())}; }
 
   [[nodiscard]] Case to_case() const {
-    Case c = load("incline.toml");
+    Case c = load("incline/incline.toml");
     c.run.end_time = end_time;
     c.run.damping.rate *= std::sqrt(young / 1e6);  // the same part of the block's own frequencies
     std::get<Elastic>(c.materials[0].law).young_modulus = young;
@@ -111,57 +115,45 @@ double start_allowance(const Slope& s) {
   return s.friction * g * std::cos(s.angle) * build_up * s.end_time;
 }
 
-void check_slide(const Slope& slope) {
+void check_slide(Checks& checks, const Slope& slope) {
+  checks.setting(fmt::format("{:.0f} deg, mu = {}", slope.angle / degree, slope.friction));
   const Slide s = slide(slope);
   const double exact = 0.5 * slope.acceleration() * slope.end_time * slope.end_time;
-  MESSAGE("slope " << slope.angle / degree << " deg, mu " << slope.friction << ", E " << slope.young / 1e6
-                   << " MPa: " << s.way << " / " << exact << " m, ahead by at most " << start_allowance(slope)
-                   << " m; acceleration " << s.acceleration << " / " << slope.acceleration()
-                   << " m/s2; friction / normal impulse " << s.friction_over_normal << "; heat off by "
-                   << s.friction_work_error << "; energy error " << s.energy_error << "; " << s.steps << " steps");
-  CHECK(s.way >= exact);
-  CHECK(s.way <= exact + start_allowance(slope));
+  checks.between("way, at least that of a rigid block", s.way, exact, exact + start_allowance(slope), "m");
   // Once it slides quietly everything is constant, and central difference carries a constant acceleration exactly. What
   // is left of the ringing after 0.5 s of damping is exp(-0.5 x 300 x 0.2) = 1e-13 of g for modes with a fifth or more
   // of relative motion.
-  CHECK(s.acceleration == doctest::Approx(slope.acceleration()).epsilon(1e-6));
-  CHECK(s.friction_over_normal == doctest::Approx(slope.friction).epsilon(1e-9));
-  CHECK(std::fabs(s.friction_work_error) <= 1e-6);
-  CHECK(s.steps < 1000000);
+  checks.within("acceleration", s.acceleration, slope.acceleration(), 1e-6, "m/s^2");
+  checks.within("friction over normal impulse", s.friction_over_normal, slope.friction, 1e-9);
+  checks.near("heat over force times way", 1 + s.friction_work_error, 1, 1e-6);
+  checks.below("steps", static_cast<double>(s.steps), 1000000);
 }
 
-}  // namespace
-
-TEST_CASE("incline: sliding at 30 and 20 degrees") {
-  check_slide({});
-  check_slide({.angle = 20 * degree, .friction = 0.3});
+void check_slides(Checks& checks) {
+  check_slide(checks, {});
+  check_slide(checks, {.angle = 20 * degree, .friction = 0.3});
 }
 
-TEST_CASE("incline: the start costs less in a stiffer block") {
-  // The allowance falls as the speed of shear waves rises: order 1/2 in Young's modulus.
-  const auto ahead = [](double young) {
+/// The allowance falls as the speed of shear waves rises: order 1/2 in Young's modulus.
+void check_stiffer(Checks& checks) {
+  ErrorSeries ahead{.what = "way ahead of the rigid block", .size = "compliance 1/E", .size_unit = "1/Pa"};
+  for (const double young : {1e6, 16e6}) {
     const Slope s{.young = young};
-    return slide(s).way - 0.5 * s.acceleration();
-  };
-  const double soft = ahead(1e6);
-  const double stiff = ahead(16e6);
-  const double order = std::log(soft / stiff) / std::log(16.0);
-  MESSAGE("ahead of the rigid block by " << soft << " m at 1 MPa and " << stiff << " m at 16 MPa: order " << order
-                                         << " (1/2 expected)");
-  CHECK(order == doctest::Approx(0.5).epsilon(0.1));
+    ahead.add(1 / young, slide(s).way - 0.5 * s.acceleration());
+  }
+  checks.order(ahead, {.expected = 0.5, .least = 0.35, .most = 0.65});
 }
 
-TEST_CASE("incline: leaning plane or leaning gravity") {
+void check_leaning(Checks& checks) {
   Slope s;
   const double leaning_plane = slide(s).way;
   s.turn_gravity = true;
   const double leaning_gravity = slide(s).way;
-  MESSAGE("way " << leaning_plane << " and " << leaning_gravity << " m, apart by " << leaning_plane - leaning_gravity);
   // Rounding of some thousand steps, 1e-16 of 1.6 m each, without anything that amplifies it.
-  CHECK(leaning_plane == doctest::Approx(leaning_gravity).epsilon(1e-11));
+  checks.within("way on a leaning plane, against leaning gravity", leaning_plane, leaning_gravity, 1e-11, "m");
 }
 
-TEST_CASE("incline: sticking") {
+void check_sticking(Checks& checks) {
   const Slope slope{.friction = 0.6};
   Run run(slope.to_case());
   const Vec2 down = slope.down();
@@ -178,23 +170,22 @@ TEST_CASE("incline: sticking") {
   }
   const double weight = run.model.bodies[0].mass * g;
   const ForceBook& book = run.state.obstacles[0].total;
-  MESSAGE("moved " << half_way << " m in the first 0.5 s, then by " << highest - lowest << " m; " << late_slides
-                   << " node-steps of sliding after 0.5 s; force of the slope along it "
-                   << -dot(book.force, down) / weight << " / " << std::sin(slope.angle) << " of the weight");
   // tan(30 deg) = 0.577 < 0.6: every node sticks in the end. Where, is settled while the unstressed start rings and
   // nodes hop: no further than free fall goes until that has died away as exp(-5), at half the rate of damping.
-  CHECK(late_slides == 0);
-  CHECK(half_way > 0);
   const double ringing = 10 / run.model.run.damping.rate;
-  CHECK(half_way < 0.5 * g * std::sin(slope.angle) * ringing * ringing);
-  CHECK(highest - lowest <= 1e-9 * height);
-  CHECK(-dot(book.force, down) == doctest::Approx(weight * std::sin(slope.angle)).epsilon(1e-6));
+  checks.equal("node-steps of sliding after 0.5 s", static_cast<double>(late_slides), 0);
+  checks.above("way in the first 0.5 s", half_way, 0, "m");
+  checks.below("the same, against free fall while it rings", half_way,
+               0.5 * g * std::sin(slope.angle) * ringing * ringing, "m");
+  checks.at_most("way after 0.5 s, over the height", (highest - lowest) / height, 1e-9);
+  checks.within("force of the slope along it, over the weight", -dot(book.force, down) / weight, std::sin(slope.angle),
+                1e-6);
 }
 
-TEST_CASE("incline: a thrown block comes to rest") {
+void check_thrown(Checks& checks) {
   const double v0 = 10;
   const double mu = 0.3;
-  std::vector<double> errors;
+  ErrorSeries errors{.what = "way to rest", .size = "time step", .size_unit = "s"};
   for (const double safety : {0.9, 0.45}) {
     const Slope slope{.angle = 0, .friction = mu, .end_time = 4, .start_speed = v0};
     Case c = slope.to_case();
@@ -203,6 +194,7 @@ TEST_CASE("incline: a thrown block comes to rest") {
     const Vec2 down = slope.down();
     double stop_time = 0, last_speed = v0, last_time = 0, at_stop = 0;
     double lowest = 1e9, highest = 0;
+    CheckLine speeds{.name = "computed", .x = {}, .y = {}};
     while (!run.done()) {
       run.step();
       const double now = speed(run, down);
@@ -212,6 +204,8 @@ TEST_CASE("incline: a thrown block comes to rest") {
       }
       last_speed = now;
       last_time = run.time();
+      speeds.x.push_back(last_time);
+      speeds.y.push_back(now);
       if (run.time() < 3.9) continue;
       lowest = std::min(lowest, way(run, down));
       highest = std::max(highest, way(run, down));
@@ -219,22 +213,34 @@ TEST_CASE("incline: a thrown block comes to rest") {
     const double h = run.state.clock.largest_step;
     const double exact_time = v0 / (mu * g);
     const double exact_way = 0.5 * v0 * exact_time;
-    MESSAGE("step " << h << " s: stops after " << stop_time << " / " << exact_time << " s and " << at_stop << " / "
-                    << exact_way << " m, at rest within " << highest - lowest << " m; heat "
-                    << run.state.ledger.friction_work.value() << " of " << run.state.ledger.start_kinetic << " J");
-    errors.push_back(at_stop - exact_way);
+    checks.setting(fmt::format("steps of {:.3g} us", 1e6 * h));
+    errors.add(h, at_stop - exact_way);
     // Friction is missing in the half step before the springs first stretch: mu g h / 2 in speed, that is h / 2 in
     // time and v0 h / 2 in way; the elastic slip of block and springs, some 1e-5 m, comes on top.
     const double slip = 10 * mu * slope.rest_depth() * (1 + height / cell);
-    CHECK(stop_time == doctest::Approx(exact_time).epsilon(0.6 * h / exact_time + 1e-4));
-    CHECK(std::fabs(at_stop - exact_way) <= 0.6 * v0 * h + slip);
-    CHECK(highest - lowest <= slip);
-    CHECK(run.state.ledger.friction_work.value() ==
-          doctest::Approx(run.state.ledger.start_kinetic).epsilon(2 * h / exact_time + 1e-5));
+    checks.within("time until it rests", stop_time, exact_time, 0.6 * h / exact_time + 1e-4, "s");
+    checks.near("way to rest", at_stop, exact_way, 0.6 * v0 * h + slip, "m");
+    checks.at_most("way after 3.9 s", highest - lowest, slip, "m");
+    checks.within("heat, against the energy at the start", run.state.ledger.friction_work.value(),
+                  run.state.ledger.start_kinetic, 2 * h / exact_time + 1e-5, "J");
+    if (safety == 0.45) {
+      const CheckLine exact{.name = "exact", .exact = true, .x = {0, exact_time, 4}, .y = {v0, 0, 0}};
+      checks.curve(
+          {.title = "A thrown block comes to rest", .y_label = "velocity", .y_unit = "m/s", .lines = {speeds, exact}});
+    }
   }
-  const double order = std::log2(errors[0] / errors[1]);
-  MESSAGE("order of the way in the step " << order << " (1 expected: the missing half step)");
-  CHECK(order >= 0.85);
+  checks.order(errors, {.expected = 1, .least = 0.85});  // the missing half step
+}
+
+}  // namespace
+
+Problem incline() {
+  return {.topic = Topic::friction,
+          .parts = {{"sliding at 30 and 20 degrees", check_slides},
+                    {"the start costs less in a stiffer block", check_stiffer},
+                    {"leaning plane or leaning gravity", check_leaning},
+                    {"sticking", check_sticking},
+                    {"a thrown block comes to rest", check_thrown}}};
 }
 
 }  // namespace udar::verification

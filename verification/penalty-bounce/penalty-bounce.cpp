@@ -1,9 +1,13 @@
-#include <doctest/doctest.h>
+// penalty-bounce: masses that bounce on contact springs, against oscillators in closed form. See README.md.
 
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "problem.hpp"
+#include "run.hpp"
+#include "udar/verification/problem.hpp"
 
 namespace udar::verification {
 namespace {
@@ -15,7 +19,7 @@ constexpr double total_mass = 6000;
 constexpr double total_stiffness = 6e7;
 
 Case bounce_case(double h) {
-  Case c = load("penalty-bounce.toml");
+  Case c = load("penalty-bounce/penalty-bounce.toml");
   c.run.time_step = h;
   return c;
 }
@@ -82,47 +86,45 @@ Bounce bounce(const Case& input) {
   return out;
 }
 
-double order(double coarse, double fine, double ratio) { return std::log(coarse / fine) / std::log(ratio); }
+ErrorSeries over_step(const std::string& what) { return {.what = what, .size = "time step", .size_unit = "s"}; }
 
-}  // namespace
+std::string step_of(double h) { return fmt::format("{:.4g} ms", 1e3 * h); }
 
-TEST_CASE("penalty-bounce: half a cycle of the contact spring") {
+void check_half_cycle(Checks& checks) {
   const double duration = pi / omega;
   const double depth = speed / omega;
   const double force = speed * std::sqrt(total_mass * total_stiffness);
-  std::vector<double> errors[3];
+  ErrorSeries durations = over_step("duration");
+  ErrorSeries depths = over_step("depth");
+  ErrorSeries forces = over_step("force");
   for (const double h : {2e-3, 1e-3, 0.5e-3, 0.25e-3, 0.125e-3}) {
     const double z = omega * h;
     const Bounce b = bounce(bounce_case(h));
-    const double errors_now[] = {std::fabs(b.duration / duration - 1), std::fabs(b.depth / depth - 1),
-                                 std::fabs(b.force / force - 1)};
-    for (int i = 0; i < 3; ++i) errors[i].push_back(errors_now[i]);
-    MESSAGE("z = " << z << ": duration " << b.duration << " / " << duration << " s, depth " << b.depth << " / " << depth
-                   << " m, force " << b.force << " / " << force << " N, restitution " << b.restitution
-                   << ", energy error " << b.energy_error);
+    checks.setting(step_of(h));
     // Central difference on the oscillator: frequency higher by z^2/24, envelope by z^2/8; the parabola through three
     // samples and the straight line at the surface are exact to higher order.
-    CHECK(errors_now[0] <= 1.1 * z * z / 24 + 0.2 * z * z * z);
-    CHECK(errors_now[1] <= 1.1 * z * z / 8 + 0.2 * z * z * z);
-    CHECK(errors_now[2] <= 1.1 * z * z / 8 + 0.2 * z * z * z);
+    const double for_time = 1.1 * z * z / 24 + 0.2 * z * z * z;
+    const double for_size = 1.1 * z * z / 8 + 0.2 * z * z * z;
+    checks.within("duration", b.duration, duration, for_time, "s");
+    checks.within("depth", b.depth, depth, for_size, "m");
+    checks.within("force", b.force, force, for_size, "N");
+    durations.add(h, std::fabs(b.duration / duration - 1), for_time);
+    depths.add(h, std::fabs(b.depth / depth - 1), for_size);
+    forces.add(h, std::fabs(b.force / force - 1), for_size);
     // The step on which it leaves falls anywhere: speed after / before in 1 .. 1 / cos(theta / 2) = 1 + z^2/8.
-    CHECK(b.restitution >= 1 - 1e-12);
-    CHECK(b.restitution <= 1 + 1.1 * z * z / 8);
+    checks.between("restitution", b.restitution, 1 - 1e-12, 1 + 1.1 * z * z / 8);
     // What the ledger calls its error is that very gain: in energy twice as much.
-    CHECK(b.energy_error <= 1.1 * z * z / 4);
+    checks.at_most("energy error", b.energy_error, 1.1 * z * z / 4);
     // Impulse = change of momentum, and no corner ahead of another: rounding of 320 steps.
-    CHECK(b.impulse == doctest::Approx(total_mass * speed * (1 + b.restitution)).epsilon(1e-12));
-    CHECK(b.distortion <= 1e-14);
+    checks.within("impulse", b.impulse, total_mass * speed * (1 + b.restitution), 1e-12, "N s");
+    checks.at_most("one corner ahead of another", b.distortion, 1e-14, "m");
   }
-  const std::string names[] = {"duration", "depth", "force"};
-  for (int i = 0; i < 3; ++i) {
-    const double measured = order(errors[i].front(), errors[i].back(), 16);
-    MESSAGE(names[i] << ": order " << measured << " in the step (2 expected)");
-    CHECK(measured == doctest::Approx(2).epsilon(0.05));
+  for (const ErrorSeries& errors : {durations, depths, forces}) {
+    checks.order(errors, {.expected = 2, .least = 1.85, .most = 2.15, .from = OrderFrom::ends});
   }
 }
 
-TEST_CASE("penalty-bounce: the discrete oscillator, step by step") {
+void check_discrete(Checks& checks) {
   // x_n = v h sin(n theta) / sin(theta), sin(theta / 2) = z / 2: what central difference does to a mass on a spring.
   const double h = 1e-3;
   const double theta = 2 * std::asin(omega * h / 2);
@@ -134,12 +136,11 @@ TEST_CASE("penalty-bounce: the discrete oscillator, step by step") {
     run.step();
     ++n;
   }
-  MESSAGE(n << " steps in contact, largest distance from the formula " << largest << " m (bound 1e-16 a step)");
-  CHECK(n == 32);
-  CHECK(largest <= 1e-16 * n);
+  checks.equal("steps in contact", n, 32);
+  checks.at_most("largest distance from the formula", largest, 1e-16 * n, "m");
 }
 
-TEST_CASE("penalty-bounce: a moving anvil and a moving mass are the same") {
+void check_moving_anvil(Checks& checks) {
   Run body_moves(bounce_case(0.5e-3));
   Case other = bounce_case(0.5e-3);
   other.bodies[0].velocity = {};
@@ -153,20 +154,15 @@ TEST_CASE("penalty-bounce: a moving anvil and a moving mass are the same") {
     largest = std::max(largest, length(obstacle_moves.displacement(0) - frame - body_moves.displacement(0)));
   }
   // Rounding: coordinates up to 1 m carry 1e-16 m a step, and the spring turns errors of place into as much again.
-  MESSAGE("largest difference of place " << largest << " m (bound 1e-14)");
-  CHECK(largest <= 1e-14);
+  checks.at_most("largest difference of place", largest, 1e-14, "m");
   // The anvils did all the work: from rest to 2 v.
   const Ledger& ledger = obstacle_moves.state.ledger;
   const double kinetic = 0.5 * total_mass * 4 * speed * speed;
-  MESSAGE("work of the anvils " << ledger.obstacle_work_now << " J, kinetic energy gained " << ledger.kinetic_energy
-                                << " J (exact " << kinetic << "), energy error " << ledger.energy_error());
   const double z = omega * 0.5e-3;
-  CHECK(ledger.kinetic_energy == doctest::Approx(kinetic).epsilon(z * z / 4));
-  CHECK(ledger.obstacle_work_now == doctest::Approx(kinetic).epsilon(z * z / 4));
-  CHECK(ledger.energy_error() <= 1.1 * z * z / 4);
+  checks.within("kinetic energy gained", ledger.kinetic_energy, kinetic, z * z / 4, "J");
+  checks.within("work of the anvils", ledger.obstacle_work_now, kinetic, z * z / 4, "J");
+  checks.at_most("energy error", ledger.energy_error(), 1.1 * z * z / 4);
 }
-
-namespace {
 
 /// The flight of one mass past a circle with a linear spring inside, by Runge and Kutta's fourth-order rule with tiny
 /// steps: the reference for a glancing blow. Places relative to the centre.
@@ -197,14 +193,12 @@ Case circle_case(double h) {
   return c;
 }
 
-}  // namespace
-
-TEST_CASE("penalty-bounce: a glancing blow on a circle") {
+void check_glancing(Checks& checks) {
   Vec2 place = glancing;
   Vec2 exact{0, -speed};
   fly_past_circle(radius, place, exact, 0.04, 400000);
-  CHECK(length(exact) == doctest::Approx(speed).epsilon(1e-9));
-  std::vector<double> errors;
+  checks.within("speed after, of the reference", length(exact), speed, 1e-9, "m/s");
+  ErrorSeries errors = over_step("velocity after");
   for (const double h : {2e-3, 1e-3, 0.5e-3, 0.25e-3, 0.125e-3}) {
     const double z = omega * h;
     Run run(circle_case(h));
@@ -221,30 +215,28 @@ TEST_CASE("penalty-bounce: a glancing blow on a circle") {
       bent = std::max(bent, distortion(run));
     }
     const double error = length(coming_velocity(run, 0) - exact) / speed;
-    errors.push_back(error);
-    MESSAGE("z = " << z << ": velocity after (" << coming_velocity(run, 0).x << ", " << coming_velocity(run, 0).y
-                   << ") / (" << exact.x << ", " << exact.y << ") m/s, error " << error << ", bound " << 0.5 * z * z
-                   << "; spin about the centre off by " << spin_drift / std::fabs(spin_before));
+    checks.setting(step_of(h));
     // Phase and envelope errors of z^2/24 and z^2/8 over a half cycle (pi), and the step of release: below z^2/2.
-    CHECK(error <= 0.5 * z * z);
+    checks.at_most("velocity after, off the reference, over the speed", error, 0.5 * z * z);
     // A central force has no moment: the spin momentum is kept exactly, by central difference too.
-    CHECK(spin_drift <= 1e-12 * std::fabs(spin_before));
-    CHECK(bent <= 1e-13);
+    checks.at_most("change of spin about the centre", spin_drift / std::fabs(spin_before), 1e-12);
+    checks.at_most("one corner ahead of another", bent, 1e-13, "m");
+    errors.add(h, error, 0.5 * z * z);
   }
-  const double measured = order(errors.front(), errors.back(), 16);
-  MESSAGE("order " << measured << " in the step (2 expected)");
-  CHECK(measured >= 1.8);
+  checks.order(errors, {.expected = 2, .least = 1.8, .from = OrderFrom::ends});
 }
 
-TEST_CASE("penalty-bounce: across the bisector near a corner") {
+void check_corner(Checks& checks) {
   // In through the top, out through the side: the potential k d^2/2 with d to the nearest face is continuous, only the
   // direction of the force jumps. A trapezoid over the step with the jump is wrong by at most half of jump x way.
   const double to_corner = 0.015;  // m, from the first touch to the corner of the anvil
-  std::vector<double> worst;
+  ErrorSeries worst = over_step("energy, worst phase");
   double depth_there = 0;
   for (const double h : {0.4e-3, 0.2e-3, 0.1e-3, 0.05e-3}) {
     double largest = 0;
     double mean = 0;
+    int crossings = 0;
+    double left_over = 0;       // J, in the springs after the bounce
     constexpr int phases = 16;  // of the jump within a step
     for (int phase = 0; phase < phases; ++phase) {
       const double reach = to_corner + speed * h * phase / phases;
@@ -268,8 +260,8 @@ TEST_CASE("penalty-bounce: across the bisector near a corner") {
           break;
         }
       }
-      CHECK(changes == 1);
-      CHECK(run.state.ledger.contact_energy == 0);
+      if (changes == 1) ++crossings;
+      left_over = std::max(left_over, std::fabs(run.state.ledger.contact_energy));
       const double energy = dot(coming_velocity(run, 0), coming_velocity(run, 0)) / (2 * speed * speed);
       largest = std::max(largest, std::fabs(energy - 1));
       mean += (energy - 1) / phases;
@@ -277,25 +269,24 @@ TEST_CASE("penalty-bounce: across the bisector near a corner") {
     // jump k d (1, 1), way h v; against m (v_x^2 + v_y^2) / 2 = m v^2, and the smooth z^2/4 on top.
     const double z = omega * h;
     const double bound = omega * omega * depth_there * h * 2 * speed / (2 * speed * speed) + z * z / 4;
-    MESSAGE("h = " << h << " s: energy after / before off by at most " << largest << ", on average " << mean
-                   << ", bound " << bound);
-    CHECK(largest <= bound);
-    worst.push_back(largest);
+    checks.setting(step_of(h));
+    checks.equal("bounces of 16 that change the face once", crossings, phases);
+    checks.equal("energy left in the springs", left_over, 0, "J");
+    checks.at_most("energy after over before, less 1, worst phase", largest, bound);
+    worst.add(h, largest, bound);
+    checks.note(fmt::format("Steps of {}: energy off by {:.2g} on average.", step_of(h), mean));
   }
-  const double measured = order(worst.front(), worst.back(), 8);
-  MESSAGE("order of the worst case " << measured
-                                     << " in the step (1 expected). Keeping the face of entry would drop k d^2/2: "
-                                     << omega * omega * depth_there * depth_there / (2 * speed * speed)
-                                     << " of the energy, whatever the step");
-  CHECK(measured >= 0.85);
+  checks.order(worst, {.expected = 1, .least = 0.85, .from = OrderFrom::ends});
+  checks.note(fmt::format("Keeping the face of entry would drop k d^2/2, {:.2g} of the energy, whatever the step.",
+                          omega * omega * depth_there * depth_there / (2 * speed * speed)));
 }
 
-TEST_CASE("penalty-bounce: contact damping, half a damped cycle") {
+void check_damping(Checks& checks) {
   // m x'' + 2 zeta sqrt(k m) x' + k x = 0 until the force would pull.
   const double zeta = 0.2;
   const double root = std::sqrt(1 - zeta * zeta);
   const double exact = std::exp(-zeta / root * (pi - std::atan(2 * zeta * root / (1 - 2 * zeta * zeta))));
-  std::vector<double> errors;
+  ErrorSeries errors = over_step("restitution");
   for (const double h : {1e-3, 0.5e-3, 0.25e-3, 0.125e-3, 0.0625e-3}) {
     const double z = omega * h;
     Case c = bounce_case(h);
@@ -316,22 +307,30 @@ TEST_CASE("penalty-bounce: contact damping, half a damped cycle") {
       }
     }
     const double restitution = coming_velocity(run, 0).y / speed;
-    errors.push_back(std::fabs(restitution / exact - 1));
     const Ledger& ledger = run.state.ledger;
     const double lost = 0.5 * total_mass * speed * speed * (1 - restitution * restitution);
-    MESSAGE("z = " << z << ": restitution " << restitution << " / " << exact << ", error " << errors.back()
-                   << ", bound " << 2 * zeta * z << "; damped energy " << ledger.damped_energy() << " / " << lost
-                   << " J; off the plain recursion by " << apart << " m");
+    checks.setting(step_of(h));
     // The dashpot uses a velocity half a step old: first order. It acts as zeta / sqrt(1 - zeta z) would and misses
     // half a step of its first blow: together below 2 zeta z.
-    CHECK(errors.back() <= 2 * zeta * z);
-    CHECK(apart <= 1e-14);
-    CHECK(pull <= 1e-9);  // N, of 1e5: rounding
-    CHECK(ledger.damped_energy() == doctest::Approx(lost).epsilon(1.1 * z * z / 4 / (1 - exact * exact)));
+    checks.within("restitution", restitution, exact, 2 * zeta * z);
+    errors.add(h, std::fabs(restitution / exact - 1), 2 * zeta * z);
+    checks.at_most("off the plain recursion", apart, 1e-14, "m");
+    checks.at_most("largest pull", pull, 1e-9, "N");  // of 1e5: rounding
+    checks.within("damped energy", ledger.damped_energy(), lost, 1.1 * z * z / 4 / (1 - exact * exact), "J");
   }
-  const double measured = order(errors.front(), errors.back(), 16);
-  MESSAGE("order " << measured << " in the step (1 expected)");
-  CHECK(measured >= 0.85);
+  checks.order(errors, {.expected = 1, .least = 0.85, .from = OrderFrom::ends});
+}
+
+}  // namespace
+
+Problem penalty_bounce() {
+  return {.topic = Topic::contact,
+          .parts = {{"half a cycle of the contact spring", check_half_cycle},
+                    {"the discrete oscillator, step by step", check_discrete},
+                    {"a moving anvil and a moving mass are the same", check_moving_anvil},
+                    {"a glancing blow on a circle", check_glancing},
+                    {"across the bisector near a corner", check_corner},
+                    {"contact damping, half a damped cycle", check_damping}}};
 }
 
 }  // namespace udar::verification

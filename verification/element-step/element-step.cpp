@@ -1,7 +1,12 @@
+// element-step: the largest eigenfrequency of a triangle, against the eigenvalues of its matrices. See README.md.
+
+#include <fmt/core.h>
+
+#include "tools.hpp"
 #include "udar/base/error.hpp"
 #include "udar/step/element_kernels.hpp"
 #include "udar/step/stages.hpp"
-#include "wave_tools.hpp"
+#include "udar/verification/problem.hpp"
 
 namespace udar::verification {
 namespace {
@@ -113,7 +118,7 @@ struct Numbers {
 
 /// The case's cell with its first triangle replaced by `t` (in mm) and its second one taken out.
 Model one_triangle(const Triangle& t, double speed, double safety) {
-  Model model = build_model(load("element-step.toml"));
+  Model model = build_model(load("element-step/element-step.toml"));
   Body& body = model.bodies[0];
   model.corners[1] = model.corners[2];  // padding
   model.quads[1] = model.quads[2];
@@ -162,18 +167,17 @@ double share_of_largest_mode(const Model& model, const Triangle& t) {
   return part / all;
 }
 
-}  // namespace
-
-TEST_CASE("element-step: the factors of four triangles") {
+void check_factors(Checks& checks) {
   const double c_p = std::sqrt(steel.wave_modulus() / density);
   for (const Shape& shape : shapes) {
     const double factor = 2 / std::sqrt(by_kernel(shape.corners, steel)) * c_p / smallest_height(shape.corners);
     // The table has four digits: half a unit of the last one.
-    CHECK(within(fmt::format("h c_P / h_min, {}", shape.name), factor, shape.factor, 0.00005 / shape.factor));
+    checks.setting(shape.name);
+    checks.within("h c_P / h_min", factor, shape.factor, 0.00005 / shape.factor);
   }
 }
 
-TEST_CASE("element-step: the formula is the largest eigenvalue of the 6 x 6 problem") {
+void check_formula(Checks& checks) {
   double worst = 0;
   double worst_at_zero = 0;
   Numbers numbers;
@@ -195,13 +199,15 @@ TEST_CASE("element-step: the formula is the largest eigenvalue of the 6 x 6 prob
     }
   }
   // Both are a few dozen roundings; flat triangles (height 1e-3 of a side) lose three digits in the 6 x 6 matrix.
-  CHECK(below("2000 triangles, Poisson's ratio -0.5 to 0.499: largest relative difference", worst, 1e-11));
+  checks.setting("2000 triangles, Poisson's ratio -0.5 to 0.499");
+  checks.at_most("largest relative difference", worst, 1e-11);
   // With lambda = 0 the two in-plane eigenvalues of an equilateral triangle are equal: the root of the formula is then
   // that of a difference of equal numbers and right to the square root of the rounding, 1.5e-8.
-  CHECK(below("the same, Poisson's ratio 0", worst_at_zero, 3e-8));
+  checks.setting("the same, Poisson's ratio 0");
+  checks.at_most("largest relative difference", worst_at_zero, 3e-8);
 }
 
-TEST_CASE("element-step: turning, mirroring, scaling and renumbering the triangle change nothing") {
+void check_invariance(Checks& checks) {
   double worst = 0;
   for (const Shape& shape : shapes) {
     const double w2 = by_kernel(shape.corners, steel);
@@ -218,10 +224,10 @@ TEST_CASE("element-step: turning, mirroring, scaling and renumbering the triangl
     compare({Vec2{-a.x, a.y}, Vec2{-c.x, c.y}, Vec2{-b.x, b.y}}, w2);
     compare({1e-3 * a, 1e-3 * b, 1e-3 * c}, 1e6 * w2);
   }
-  CHECK(below("largest relative change", worst, 1e-13));
+  checks.at_most("largest relative change", worst, 1e-13);
 }
 
-TEST_CASE("element-step: one triangle rings for ever below the limit") {
+void check_below(Checks& checks) {
   constexpr double safety = 0.999;
   const double c_p = std::sqrt(steel.wave_modulus() / density);
   for (const Shape& shape : shapes) {
@@ -238,26 +244,24 @@ TEST_CASE("element-step: one triangle rings for ever below the limit") {
     const double bound = 1 / (1 - safety * safety);
     const double share = share_of_largest_mode(run.model, shape.corners);
     const double ratio = largest / run.state.ledger.start_kinetic;
-    MESSAGE(fmt::format("{}: largest half-step energy over start energy {:.6g}, between {:.6g} and {:.6g}", shape.name,
-                        ratio, share * bound, bound));
-    CHECK(ratio <= bound * (1 + 1e-5));
-    CHECK(ratio >= share * bound * (1 - 1e-3));
+    checks.setting(shape.name);
+    checks.between("largest half-step energy over start energy", ratio, share * bound * (1 - 1e-3), bound * (1 + 1e-5));
   }
 }
 
-TEST_CASE("element-step: the case itself, 1e5 steps of a cell at 0.9995 of the limit") {
-  Run run(load("element-step.toml"));
+void check_case(Checks& checks) {
+  Run run(load("element-step/element-step.toml"));
   double largest = 0;
   run.run([&](const auto& now) { largest = std::max(largest, now.state.ledger.half_step_kinetic); });
-  MESSAGE(fmt::format("{} steps of {:.6g} s, limit {:.6g} s", run.state.clock.step, run.state.clock.largest_step,
-                      run.state.clock.limit.size));
+  checks.note(fmt::format("{} steps of {:.6g} s; limit {:.6g} s.", run.state.clock.step, run.state.clock.largest_step,
+                          run.state.clock.limit.size));
   const double ratio = run.state.clock.largest_step / run.state.clock.limit.size;
-  CHECK(below("largest half-step energy over start energy", largest / run.state.ledger.start_kinetic,
-              1 / (1 - ratio * ratio)));
-  CHECK(below("energy error", run.state.ledger.energy_error(), 1e-6));
+  checks.at_most("largest half-step energy over start energy", largest / run.state.ledger.start_kinetic,
+                 1 / (1 - ratio * ratio));
+  checks.at_most("energy error", run.state.ledger.energy_error(), 1e-6);
 }
 
-TEST_CASE("element-step: one triangle grows above the limit, at the rate of theory") {
+void check_growth(Checks& checks) {
   constexpr double excess = 1.0005;
   const double c_p = std::sqrt(steel.wave_modulus() / density);
   const double g = 2 * excess * excess - 1;
@@ -280,27 +284,35 @@ TEST_CASE("element-step: one triangle grows above the limit, at the rate of theo
     const double measured = std::pow(energy[300] / energy[200], 0.5 / 100);
     // After 200 steps everything else is 1e-5 of the growing mode in amplitude, 1e-10 in energy; over 100 steps that is
     // 1e-12. Strain reaches 1e-6 and moves the limit by as much: 1e-6 of z, z growth' / growth = 32: 3e-5.
-    CHECK(within(fmt::format("growth per step, {}", shape.name), measured - 1, growth - 1, 1e-3));
+    checks.setting(shape.name);
+    checks.within("growth per step, less 1", measured - 1, growth - 1, 1e-3);
   }
 }
 
-TEST_CASE("element-step: a fixed step above the limit is refused, one below is taken") {
+void check_refused(Checks& checks) {
   Model model = one_triangle(shapes[0].corners, 1e-6, 1);
   const double limit = 2 / std::sqrt(by_kernel(shapes[0].corners, steel)) * 1e-3;
-  model.run.time_step = 0.9999 * limit;
-  CHECK_NOTHROW(ModelRun{model});
-  model.run.time_step = 1.0001 * limit;
-  CHECK_THROWS_AS(ModelRun{model}, UserError);
+  const auto is_refused = [&](double part) {
+    model.run.time_step = part * limit;
+    try {
+      const ModelRun run{model};
+      return false;
+    } catch (const UserError&) {
+      return true;
+    }
+  };
+  checks.holds("0.9999 of the limit is taken", !is_refused(0.9999));
+  checks.holds("1.0001 of the limit is refused", is_refused(1.0001));
 }
 
-TEST_CASE("element-step: the element limit is safe for a whole mesh, and by how much") {
+void check_meshes(Checks& checks) {
   const std::vector<std::pair<const char*, std::string>> meshes{
       {"right", R"({ shape = "rectangle", size = ["10 mm", "8 mm"], element_size = "1 mm", diagonals = "right" })"},
       {"alternating", R"({ shape = "rectangle", size = ["10 mm", "8 mm"], element_size = "1 mm" })"},
       {"crossed", R"({ shape = "rectangle", size = ["10 mm", "8 mm"], element_size = "1 mm", diagonals = "crossed" })"},
       {"disc", R"({ shape = "disc", radius = "6 mm", element_size = "1 mm" })"}};
   for (const auto& [name, mesh] : meshes) {
-    Model model = build_model(load("element-step.toml", {"bodies.cell.mesh=" + mesh}));
+    Model model = build_model(load("element-step/element-step.toml", {"bodies.cell.mesh=" + mesh}));
     model.run.time_step.reset();
     // Power iteration without a matrix: element by element. Its Rayleigh quotient never exceeds the true eigenvalue.
     std::vector<double> v(2 * model.node_count), kv(2 * model.node_count);
@@ -340,19 +352,22 @@ TEST_CASE("element-step: the element limit is safe for a whole mesh, and by how 
     }
     ModelRun run(model);
     const double solver_limit = run.state.clock.limit.size;
-    MESSAGE(fmt::format("{}: true limit of the mesh over the limit from its elements {:.4f}", name,
-                        std::sqrt(by_elements / assembled)));
-    CHECK(assembled <= by_elements * (1 + 1e-12));
-    CHECK(std::fabs(solver_limit * std::sqrt(by_elements) / 2 - 1) < 1e-12);
+    checks.setting(name);
+    // Largest eigenvalue: true one of the mesh over the bound from its elements, by Rayleigh's quotient.
+    checks.at_most("w^2 of the mesh over that of its elements", assembled / by_elements, 1 + 1e-12);
+    checks.within("limit of the solver over that of the elements", solver_limit * std::sqrt(by_elements) / 2, 1, 1e-12);
+    checks.note(fmt::format("{}: the true limit of the mesh is {:.4f} of the limit from its elements.", name,
+                            std::sqrt(by_elements / assembled)));
   }
 }
 
-TEST_CASE("element-step: 1e5 steps of a mesh at 0.999 of its limit (long)") {
+void check_long_runs(Checks& checks) {
   // The true limits of these meshes are at least 1.08 of those of their elements (the check before this one).
   const double bound = 1 / (1 - 0.999 * 0.999 / (1.08 * 1.08));
   for (const char* diagonals : {"right", "alternating", "crossed"}) {
-    Model model = build_model(load("element-step.toml", {fmt::format("bodies.cell.mesh.diagonals=\"{}\"", diagonals),
-                                                         "bodies.cell.mesh.size=[\"5 mm\", \"5 mm\"]"}));
+    Model model =
+        build_model(load("element-step/element-step.toml", {fmt::format("bodies.cell.mesh.diagonals=\"{}\"", diagonals),
+                                                            "bodies.cell.mesh.size=[\"5 mm\", \"5 mm\"]"}));
     model.run.time_step.reset();
     model.run.step_safety = 0.999;
     model.run.end_time = 1;
@@ -362,9 +377,25 @@ TEST_CASE("element-step: 1e5 steps of a mesh at 0.999 of its limit (long)") {
       run.step();
       largest = std::max(largest, run.state.ledger.half_step_kinetic);
     }
-    CHECK(below(fmt::format("{}: largest half-step energy over start energy", diagonals),
-                largest / run.state.ledger.start_kinetic, bound));
+    checks.setting(diagonals);
+    checks.at_most("largest half-step energy over start energy", largest / run.state.ledger.start_kinetic, bound);
   }
+}
+
+}  // namespace
+
+Problem element_step() {
+  return {
+      .topic = Topic::scheme,
+      .parts = {{"factors of four triangles", check_factors},
+                {"the formula against the 6 x 6 problem", check_formula},
+                {"turned, mirrored, scaled, renumbered", check_invariance},
+                {"one triangle rings for ever below the limit", check_below},
+                {"100 000 steps of a cell at 0.9995 of the limit", check_case},
+                {"one triangle grows above the limit", check_growth},
+                {"a fixed step above the limit is refused", check_refused},
+                {"whole meshes", check_meshes},
+                {.name = "100 000 steps of a mesh at 0.999 of its limit", .check = check_long_runs, .is_long = true}}};
 }
 
 }  // namespace udar::verification

@@ -1,12 +1,16 @@
+// integrators: order, growth and limits on an oscillator, against the roots of the rules. See README.md.
+
 #include "udar/step/integrators.hpp"
 
-#include <doctest/doctest.h>
+#include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 
-#include "problem.hpp"
+#include "run.hpp"
 #include "udar/step/stages.hpp"
+#include "udar/verification/problem.hpp"
 
 namespace udar::verification {
 namespace {
@@ -30,7 +34,7 @@ struct Oscillator {
     close_books(model, state, work);
   }
   static Case with(Integrator kind, double start_speed) {
-    Case c = load("integrators.toml");
+    Case c = load("integrators/integrators.toml");
     c.run.integrator = kind;
     c.bodies[0].velocity.y = start_speed;
     return c;
@@ -178,91 +182,89 @@ const Expected expected[] = {
 
 std::string name(Integrator kind) { return rule_of(kind).keyword; }
 
-}  // namespace
-
-TEST_CASE("integrators: growth of the amplitude per step") {
+void check_growth(Checks& checks) {
   for (const Expected& e : expected) {
     for (const double z : {0.05, 0.1, 0.2, 0.4}) {
-      const double measured = measured_modulus(e.kind, z);
-      const double by_root = physical_root(e.kind, z);
-      MESSAGE(name(e.kind) << ", z = " << z << ": growth per step " << measured - 1 << ", by the root " << by_root - 1);
+      checks.setting(fmt::format("{}, z = {}", name(e.kind), z));
       // The fit is exact for two roots; what the others leave after 100 steps, and rounding, is below 1e-9.
-      CHECK(std::fabs(measured - by_root) <= 1e-9);
+      checks.near("amplitude after a step, by the root", measured_modulus(e.kind, z), physical_root(e.kind, z), 1e-9);
     }
     // The table's leading term; the next is z^2 = 1 % of it, with a factor of order 1 to 10.
     const double growth = measured_modulus(e.kind, 0.1) - 1;
-    MESSAGE(name(e.kind) << ": growth at z = 0.1 " << growth << " / " << e.growth);
-    CHECK(growth == doctest::Approx(e.growth).epsilon(0.1));
-    CHECK(std::fabs(growth - e.growth) <= std::max(0.1 * std::fabs(e.growth), 1e-11));
+    checks.setting(fmt::format("{}, z = 0.1", name(e.kind)));
+    checks.near("growth per step, leading term", growth, e.growth, std::max(0.1 * std::fabs(e.growth), 1e-11));
   }
 }
 
-TEST_CASE("integrators: stable limit") {
+void check_limits(Checks& checks) {
   for (const Expected& e : expected) {
+    checks.setting(name(e.kind));
     if (e.limit == 0) {
       // Grows at any step, slowly at a small one: z^4 / 6 a step.
-      const int steps = steps_to_grow(e.kind, 0.3, 20000);
       const double by_growth = std::log(100.0) / std::log(physical_root(e.kind, 0.3));
-      MESSAGE(name(e.kind) << ": never stable; at z = 0.3 a hundred times larger after " << steps
-                           << " steps, by the root " << by_growth);
-      CHECK(steps == doctest::Approx(by_growth).epsilon(0.02));
-      CHECK(rule_of(e.kind).stable_limit == 0);
+      checks.within("steps to grow a hundred times at z = 0.3, by the root", steps_to_grow(e.kind, 0.3, 20000),
+                    by_growth, 0.02);
+      checks.equal("stable limit that the program tells (0: never stable)", rule_of(e.kind).stable_limit, 0);
       continue;
     }
-    const double by_roots = limit_by_roots(e.kind);
-    const int below = steps_to_grow(e.kind, 0.99 * e.limit, 20000);
-    const int above = steps_to_grow(e.kind, 1.01 * e.limit, 20000);
-    MESSAGE(name(e.kind) << ": limit by the roots " << by_roots << " / " << e.limit
-                         << "; 1 % below it bounded for 20000 "
-                         << "steps: " << std::string(below == 0 ? "yes" : "no")
-                         << ", 1 % above it a hundred times larger after " << above << " steps");
-    CHECK(by_roots == doctest::Approx(e.limit).epsilon(1e-3));
-    CHECK(rule_of(e.kind).stable_limit == e.limit);
-    CHECK(below == 0);
-    CHECK(above > 0);
+    // The program has three digits of it, cut off.
+    checks.near("limit by the roots", limit_by_roots(e.kind), e.limit, 1e-3);
+    checks.equal("stable limit that the program tells (0: never stable)", rule_of(e.kind).stable_limit, e.limit);
+    checks.holds("bounded for 20 000 steps 1 % below it", steps_to_grow(e.kind, 0.99 * e.limit, 20000) == 0);
+    checks.above("steps to grow a hundred times 1 % above it", steps_to_grow(e.kind, 1.01 * e.limit, 20000), 0);
   }
 }
 
-TEST_CASE("integrators: order of the solution") {
-  for (const auto& pattern : {std::vector<double>{1}, std::vector<double>{1, 1.6, 0.7, 1.2}}) {
-    for (const Expected& e : expected) {
-      std::vector<double> errors;
-      for (const double h : {4e-4, 2e-4, 1e-4, 0.5e-4}) {
-        errors.push_back(solution_error(e.kind, h, pattern));
-        const double z = 1.6 * omega * h;
-        CHECK(errors.back() <= e.error * std::pow(pattern.size() == 1 ? omega * h : z, e.order));
-      }
-      const double order = std::log(errors.front() / errors.back()) / std::log(8.0);
-      MESSAGE(name(e.kind) << ", " << std::string(pattern.size() == 1 ? "equal" : "unequal") << " steps: error "
-                           << errors.front() << " at z = 0.04, " << errors.back() << " at z = 0.005, order " << order
-                           << " / " << e.order);
-      CHECK(order >= e.order - 0.15);
-      CHECK(order <= e.order + 0.5);
-    }
-  }
-}
-
-TEST_CASE("integrators: the work and impulse books agree with the motion") {
+void check_order(Checks& checks, const std::vector<double>& pattern) {
   for (const Expected& e : expected) {
-    std::vector<double> errors;
+    ErrorSeries errors{.what = "place, " + name(e.kind), .size = "time step", .size_unit = "s"};
+    for (const double h : {4e-4, 2e-4, 1e-4, 0.5e-4}) {
+      checks.setting(fmt::format("{}, {} us", name(e.kind), 1e6 * h));
+      const double z = (pattern.size() == 1 ? 1 : 1.6) * omega * h;
+      const double error = solution_error(e.kind, h, pattern);
+      const double bound = e.error * std::pow(z, e.order);
+      checks.at_most("largest error of place over the amplitude", error, bound);
+      errors.add(h, error, bound);
+    }
+    checks.order(errors,
+                 {.expected = e.order, .least = e.order - 0.15, .most = e.order + 0.5, .from = OrderFrom::ends});
+  }
+}
+
+void check_books(Checks& checks) {
+  for (const Expected& e : expected) {
+    ErrorSeries errors{.what = "energy books, " + name(e.kind), .size = "time step", .size_unit = "s"};
     for (const double h : {4e-4, 2e-4, 1e-4}) {
       Oscillator o(e.kind, h);
       while (o.state.clock.time.value() < 4 / omega) o.step();
       const Ledger& ledger = o.state.ledger;
-      errors.push_back(ledger.energy_gap / (0.5 * 6000 * speed * speed));
+      errors.add(h, ledger.energy_gap / (0.5 * 6000 * speed * speed));
       // Momentum = impulses, whatever the integrator: the same weights enter both.
-      CHECK(ledger.momentum_gap <= 1e-12 * 6000 * 10 * 4 / omega);
+      checks.setting(fmt::format("{}, {} us", name(e.kind), 1e6 * h));
+      checks.at_most("momentum less impulses", ledger.momentum_gap, 1e-12 * 6000 * 10 * 4 / omega, "N s");
     }
-    const double order = std::log2(errors.front() / errors.back()) / 2;
-    MESSAGE(name(e.kind) << ": energy books apart by " << errors.front() << ", " << errors[1] << ", " << errors.back()
-                         << " of the start energy at z = 0.04, 0.02, 0.01: order " << order);
     if (e.kind == Integrator::central_difference) {
       // m v-.v+ / 2 + k x^2 / 2 is what it keeps exactly on a linear spring: rounding only.
-      CHECK(errors.front() <= 1e-8);
+      checks.setting(name(e.kind));
+      checks.at_most("energy books apart, over the energy at the start", errors.errors.front(), 1e-8);
     } else {
-      CHECK(order >= std::min(2.0, e.order) - 0.2);
+      checks.order(errors, {.expected = e.order, .least = std::min(2.0, e.order) - 0.2, .from = OrderFrom::ends});
     }
   }
+}
+
+}  // namespace
+
+Problem integrators() {
+  return {.topic = Topic::scheme,
+          .parts = {{"growth of the amplitude per step", check_growth},
+                    {"stable limit", check_limits},
+                    {"order of the solution, equal steps", [](Checks& checks) { check_order(checks, {1}); }},
+                    {"order of the solution, unequal steps",
+                     [](Checks& checks) {
+                       check_order(checks, {1, 1.6, 0.7, 1.2});
+                     }},
+                    {"the books of work and impulse agree with the motion", check_books}}};
 }
 
 }  // namespace udar::verification

@@ -1,4 +1,11 @@
-#include "wave_tools.hpp"
+// beam-vibration: frequencies of a free beam, against Timoshenko's theory. See README.md.
+
+#include <fmt/core.h>
+
+#include <numbers>
+
+#include "tools.hpp"
+#include "udar/verification/problem.hpp"
 
 namespace udar::verification {
 namespace {
@@ -120,7 +127,8 @@ double fit_frequency(const Record& record, double guess) {
 /// Shakes a beam of so many layers and reads three frequencies: the velocities are projected on Timoshenko's modes,
 /// with the masses as weights, which leaves one mode in each record.
 Ringing shake(int layers) {
-  Run run(load("beam-vibration.toml", {fmt::format("bodies.beam.mesh.element_size={} m", height / layers)}));
+  Run run(
+      load("beam-vibration/beam-vibration.toml", {fmt::format("bodies.beam.mesh.element_size={} m", height / layers)}));
   const Model& model = run.model;
   std::array<std::vector<Vec2>, 3> weights;
   for (std::size_t m = 0; m < 3; ++m) {
@@ -166,58 +174,60 @@ double theory_bound(std::size_t m) {
   return timoshenko(hertz[m], (5 + 5 * nu) / (6 + 5 * nu), m != 1) / timoshenko(hertz[m], kappa, m != 1) - 1;
 }
 
-void check(const std::vector<int>& meshes) {
-  std::array<std::vector<double>, 3> errors;
+void check(Checks& checks, const std::vector<int>& meshes) {
+  std::array<ErrorSeries, 3> excess;
   std::vector<Ringing> results;
   for (const int layers : meshes) {
+    checks.setting(fmt::format("{} layers", layers));
     results.push_back(shake(layers));
     const Ringing& r = results.back();
     for (std::size_t m = 0; m < 3; ++m) {
-      CHECK(within(fmt::format("{} layers: mode {} (Hz)", layers, m + 1), r.frequency[m], hertz[m],
-                   excess_bound(layers) + theory_bound(m)));
-      CHECK(r.frequency[m] > hertz[m]);  // from above
+      const double bound = excess_bound(layers) + theory_bound(m);
+      checks.within(fmt::format("frequency {}", m + 1), r.frequency[m], hertz[m], bound, "Hz");
+      checks.above(fmt::format("frequency {} comes from above", m + 1), r.frequency[m], hertz[m], "Hz");
+      excess[m].what = fmt::format("frequency {}, over Timoshenko's", m + 1);
+      excess[m].add(height / layers, std::fabs(r.frequency[m] / hertz[m] - 1), bound);
     }
-    CHECK(below("momentum", r.momentum, 1e-12));
-    CHECK(below("energy error", r.energy, 1e-3));
+    checks.at_most("momentum", r.momentum, 1e-12);
+    checks.at_most("energy error", r.energy, 1e-3);
   }
+  checks.setting("");
   const std::size_t n = results.size();
   for (std::size_t m = 0; m < 3; ++m) {
     const auto f = [&](std::size_t back) { return results[n - 1 - back].frequency[m]; };
     if (n >= 3) {
-      const double order = std::log2((f(2) - f(1)) / (f(1) - f(0)));
-      MESSAGE(fmt::format("mode {}: order from three meshes {:.2f}", m + 1, order));
-      CHECK(order >= 1.7);
-      CHECK(order <= 2.3);
+      // From three meshes, whatever the limit is.
+      checks.between(fmt::format("order of frequency {}, from three meshes", m + 1),
+                     std::log2((f(2) - f(1)) / (f(1) - f(0))), 1.7, 2.3);
     }
     // Richardson takes the h^2 term out; the h^4 term is about the square of the excess on the finer mesh, times 4.
     const double limit = f(0) + (f(0) - f(1)) / 3;
     const double left = 4 * std::pow(excess_bound(meshes.back()), 2);
-    CHECK(within(fmt::format("mode {}: extrapolated (Hz)", m + 1), limit, hertz[m], theory_bound(m) + left));
+    checks.within(fmt::format("frequency {}, extrapolated", m + 1), limit, hertz[m], theory_bound(m) + left, "Hz");
+    checks.series(excess[m]);
   }
 }
 
-}  // namespace
-
-TEST_CASE("beam-vibration: Timoshenko's frequencies") {
+void check_theory(Checks& checks) {
   for (std::size_t m = 0; m < 3; ++m) {
-    CHECK(within(fmt::format("mode {} (Hz)", m + 1), timoshenko(hertz[m], kappa, m != 1), hertz[m], 3e-6));
-    MESSAGE(fmt::format("with the other shear factor {:.3g} % more", 100 * theory_bound(m)));
+    checks.within(fmt::format("frequency {} by the root of Timoshenko's equation", m + 1),
+                  timoshenko(hertz[m], kappa, m != 1), hertz[m], 3e-6, "Hz");
+    checks.note(fmt::format("Frequency {} with the other shear factor: {:.3g} % more.", m + 1, 100 * theory_bound(m)));
   }
 }
 
-TEST_CASE("beam-vibration: 2, 4 and 8 layers") { check({2, 4, 8}); }
-TEST_CASE("beam-vibration: the same beam seen in a mirror") {
+void check_mirror(Checks& checks) {
   // Upside down: y and v_y change their signs. Bending is antisymmetric only as long as it is infinitely small (here
   // the difference is 1e-5), but two opposite beams are mirror images at any size.
   const std::vector<std::string> coarse{"run.end_time=1 ms"};
   std::vector<std::string> opposite = coarse;
   opposite.emplace_back("bodies.beam.cosine_mode.amplitude=[\"0 m/s\", \"-10 mm/s\"]");
-  Run up(load("beam-vibration.toml", coarse));
-  Run down(load("beam-vibration.toml", opposite));
+  Run up(load("beam-vibration/beam-vibration.toml", coarse));
+  Run down(load("beam-vibration/beam-vibration.toml", opposite));
   up.run();
   down.run();
   const auto pairs = partners(up.model, 1, [](Vec2 p) { return Vec2{p.x, -p.y}; });
-  REQUIRE(pairs.size() == up.model.node_count);
+  checks.equal("nodes that have an image", static_cast<double>(pairs.size()), up.model.node_count);
   double difference = 0;
   double largest = 0;
   for (const auto& [i, j] : pairs) {
@@ -226,8 +236,25 @@ TEST_CASE("beam-vibration: the same beam seen in a mirror") {
     difference = std::max(difference, length(a - Vec2{b.x, -b.y}));
     largest = std::max(largest, length(a));
   }
-  CHECK(below("mirror images: largest difference of velocity", difference / largest, 1e-10));
+  checks.at_most("largest difference of velocity over the largest", difference / largest, 1e-10);
 }
-TEST_CASE("beam-vibration: finer meshes (long)") { check({4, 8, 16}); }
+
+}  // namespace
+
+Problem beam_vibration() {
+  return {.topic = Topic::vibration,
+          .parts = {{"Timoshenko's equation", check_theory},
+                    {"2, 4 and 8 layers",
+                     [](Checks& checks) {
+                       check(checks, {2, 4, 8});
+                     }},
+                    {"the same beam seen in a mirror", check_mirror},
+                    {.name = "finer meshes",
+                     .check =
+                         [](Checks& checks) {
+                           check(checks, {4, 8, 16});
+                         },
+                     .is_long = true}}};
+}
 
 }  // namespace udar::verification
