@@ -162,7 +162,7 @@ void check_gross_slip(Checks& checks) {
 /// From sticking at the touch, over sliding first and last, to sliding nearly all the time.
 void check_sticking(Checks& checks) {
   for (const double slope : {0.3, 1.0, 2.0}) {
-    checks.setting(fmt::format("{} m/s along, mu = 0.5", slope * 1.5));
+    checks.setting(fmt::format("{:.3g} m/s along, mu = 0.5", slope * 1.5));
     const Compared c = compare(checks, {.velocity = {slope * 1.5, -1.5}, .friction = 0.5});
     checks.holds("it sticks", c.sticks);
     checks.holds("it slides", c.slides);

@@ -38,6 +38,7 @@ struct Arguments {
   std::vector<std::string> names;
   std::string output;
   int cores = 0;
+  double bounds = 1;
   bool list = false;
   bool brief = false;
   bool with_long = false;
@@ -79,7 +80,8 @@ Verification run_all(const Arguments& arguments, std::vector<verification::Probl
                    .processor = this_machine().processor,
                    .date = date,
                    .cores = cores,
-                   .with_long = arguments.which() != Which::quick};
+                   .with_long = arguments.which() != Which::quick,
+                   .bounds = arguments.bounds};
   ProblemRuns runs(std::move(problems), cores);
   constexpr int look_every = 50;  // ms
   for (std::size_t k = 0; k < runs.count(); ++k) {
@@ -91,7 +93,8 @@ Verification run_all(const Arguments& arguments, std::vector<verification::Probl
     }
     if (is_terminal()) say("\r\x1b[K");
     all.problems.push_back(runs.result(k));
-    say_text(arguments.brief ? line_of(runs.result(k)) : table_of(runs.result(k)));
+    if (arguments.bounds != 1) scale_bounds(all.problems.back(), arguments.bounds);
+    say_text(arguments.brief ? line_of(all.problems.back()) : table_of(all.problems.back()));
     flush_terminal();
   }
   runs.finish();
@@ -142,6 +145,11 @@ Command add_verify(CLI::App& app) {
   words->add_flag("--long", arguments->with_long, "Also the parts that take minutes");
   words->add_flag("--only-long", arguments->only_long, "Only these");
   words->add_flag("--brief", arguments->brief, "A line for each problem, and the checks that fail");
+  words
+      ->add_option("--bounds", arguments->bounds,
+                   "Multiply the bounds of errors: 0.5 shows which checks are within half of theirs")
+      ->type_name("FACTOR")
+      ->check(CLI::Range(0.0, 1000.0).description(""));
   words
       ->add_option("--output", arguments->output,
                    "Folder for verification.html, verification.md with its pictures, and verify.json")

@@ -59,8 +59,9 @@ Columns columns_of(const VerifiedPart& part) {
 constexpr std::array<const char*, 5> column_names{"with", "computed", "exact", "error", "bound"};
 
 std::string machine_words(const Verification& v) {
-  return fmt::format("{}, {}, {} UTC, {}", v.version, v.processor.empty() ? "processor unknown" : v.processor, v.date,
-                     v.cores == 1 ? "1 core" : fmt::format("{} cores", v.cores));
+  const std::string bounds = v.bounds == 1 ? "" : fmt::format(", bounds of errors times {}", v.bounds);
+  return fmt::format("{}, {}, {} UTC, {}{}", v.version, v.processor.empty() ? "processor unknown" : v.processor, v.date,
+                     v.cores == 1 ? "1 core" : fmt::format("{} cores", v.cores), bounds);
 }
 
 std::string count_words(const CheckCount& count) { return fmt::format("{} of {}", count.held, count.all); }

@@ -45,7 +45,7 @@ const char* name_of(CheckKind kind) {
 std::string plain(double value, int digits) {
   std::string text = fmt::format("{:.{}g}", value, digits);
   if (text.find('e') == std::string::npos || std::fabs(value) >= 1e6 || std::fabs(value) < 1) return text;
-  return fmt::format("{:.0f}", value);
+  return fmt::format("{:.0f}", std::stod(text));  // 28300, not 2.83e+04
 }
 
 /// "0.35 %" of an error that is relative; small ones as they are.
@@ -62,6 +62,7 @@ struct RowNumbers {
     // Rounding of a force is 1e-12 N, not 1e-9 mN.
     unit = size > 1e-9 && size < 1e12 ? human_unit(row.unit, size) : HumanUnit{typeset(row.unit), 1};
     if (row.unit.empty()) unit = {};
+    if (unit.name.starts_with("10")) unit = {typeset(row.unit), 1};  // 1.5e-05 m/s: no prefix is usual there
     // Beside an exact value, or close to a bound, more digits tell something.
     const bool close = std::fabs(row.computed - row.bound) <= 0.01 * std::fabs(row.bound);
     digits = row.kind == CheckKind::order ? 3 : known || close ? 6 : 4;
@@ -179,7 +180,45 @@ void for_each_member(T& v, Visit visit) {
   visit("seconds", v.seconds);
   visit("cores", v.cores);
   visit("with_long", v.with_long);
+  visit("bounds_times", v.bounds);
   visit("problems", v.problems);
+}
+
+bool is_held(const CheckRow& row) {
+  if (row.kind != CheckKind::holds && !std::isfinite(row.computed)) return false;
+  switch (row.kind) {
+    case CheckKind::relative:
+    case CheckKind::absolute:
+      return row.error <= row.bound;
+    case CheckKind::equal:
+      return row.computed == row.exact;
+    case CheckKind::at_most:
+      return row.computed <= row.bound;
+    case CheckKind::below:
+      return row.computed < row.bound;
+    case CheckKind::at_least:
+      return row.computed >= row.bound;
+    case CheckKind::above:
+      return row.computed > row.bound;
+    case CheckKind::between:
+    case CheckKind::order:
+      return row.computed >= row.bound && row.computed <= row.upper;
+    case CheckKind::holds:
+      return row.holds;
+  }
+  return false;
+}
+
+void scale_bounds(VerifiedProblem& problem, double factor) {
+  for (VerifiedPart& part : problem.parts) {
+    for (CheckRow& row : part.rows) {
+      const bool upper = row.kind == CheckKind::relative || row.kind == CheckKind::absolute ||
+                         row.kind == CheckKind::at_most || row.kind == CheckKind::below;
+      if (!upper) continue;
+      row.bound *= factor;
+      row.holds = is_held(row);
+    }
+  }
 }
 
 void CheckCount::add(const VerifiedPart& part) {

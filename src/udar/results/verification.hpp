@@ -103,8 +103,15 @@ struct Verification {
   double seconds = 0;     ///< from start to end
   int cores = 0;
   bool with_long = false;
+  double bounds = 1;  ///< by what the bounds of errors were multiplied
   std::vector<VerifiedProblem> problems{};
 };
+
+/// Whether the numbers of a row hold; of words, what was said. A number that is not finite never does.
+bool is_held(const CheckRow& row);
+
+/// Multiplies the bounds of errors (upper ones: `relative`, `absolute`, `at_most`, `below`) and judges again.
+void scale_bounds(VerifiedProblem& problem, double factor);
 
 /// Checks and how many of them hold.
 struct CheckCount {

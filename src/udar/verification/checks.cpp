@@ -66,7 +66,7 @@ double order_of(const ErrorSeries& series, OrderFrom from) {
 }
 
 bool Checks::add(CheckRow row) {
-  if (row.kind != CheckKind::holds && !std::isfinite(row.computed)) row.holds = false;
+  row.holds = is_held(row);
   if (row.kind != CheckKind::order) row.setting = setting_;
   part_.rows.push_back(std::move(row));
   return part_.rows.back().holds;
@@ -80,8 +80,7 @@ bool Checks::within(const std::string& what, double computed, double exact, doub
               .computed = computed,
               .exact = exact,
               .error = error,
-              .bound = bound,
-              .holds = error <= bound});
+              .bound = bound});
 }
 
 bool Checks::near(const std::string& what, double computed, double exact, double bound, const std::string& unit) {
@@ -92,63 +91,32 @@ bool Checks::near(const std::string& what, double computed, double exact, double
               .computed = computed,
               .exact = exact,
               .error = error,
-              .bound = bound,
-              .holds = error <= bound});
+              .bound = bound});
 }
 
 bool Checks::equal(const std::string& what, double computed, double exact, const std::string& unit) {
-  return add({.kind = CheckKind::equal,
-              .what = what,
-              .unit = unit,
-              .computed = computed,
-              .exact = exact,
-              .holds = computed == exact});
+  return add({.kind = CheckKind::equal, .what = what, .unit = unit, .computed = computed, .exact = exact});
 }
 
 bool Checks::at_most(const std::string& what, double computed, double bound, const std::string& unit) {
-  return add({.kind = CheckKind::at_most,
-              .what = what,
-              .unit = unit,
-              .computed = computed,
-              .bound = bound,
-              .holds = computed <= bound});
+  return add({.kind = CheckKind::at_most, .what = what, .unit = unit, .computed = computed, .bound = bound});
 }
 
 bool Checks::below(const std::string& what, double computed, double bound, const std::string& unit) {
-  return add({.kind = CheckKind::below,
-              .what = what,
-              .unit = unit,
-              .computed = computed,
-              .bound = bound,
-              .holds = computed < bound});
+  return add({.kind = CheckKind::below, .what = what, .unit = unit, .computed = computed, .bound = bound});
 }
 
 bool Checks::at_least(const std::string& what, double computed, double bound, const std::string& unit) {
-  return add({.kind = CheckKind::at_least,
-              .what = what,
-              .unit = unit,
-              .computed = computed,
-              .bound = bound,
-              .holds = computed >= bound});
+  return add({.kind = CheckKind::at_least, .what = what, .unit = unit, .computed = computed, .bound = bound});
 }
 
 bool Checks::above(const std::string& what, double computed, double bound, const std::string& unit) {
-  return add({.kind = CheckKind::above,
-              .what = what,
-              .unit = unit,
-              .computed = computed,
-              .bound = bound,
-              .holds = computed > bound});
+  return add({.kind = CheckKind::above, .what = what, .unit = unit, .computed = computed, .bound = bound});
 }
 
 bool Checks::between(const std::string& what, double computed, double low, double high, const std::string& unit) {
-  return add({.kind = CheckKind::between,
-              .what = what,
-              .unit = unit,
-              .computed = computed,
-              .bound = low,
-              .upper = high,
-              .holds = computed >= low && computed <= high});
+  return add(
+      {.kind = CheckKind::between, .what = what, .unit = unit, .computed = computed, .bound = low, .upper = high});
 }
 
 bool Checks::order(ErrorSeries series, const OrderBound& bound) {
@@ -159,8 +127,7 @@ bool Checks::order(ErrorSeries series, const OrderBound& bound) {
                          .computed = series.order,
                          .exact = bound.expected,
                          .bound = bound.least,
-                         .upper = bound.most,
-                         .holds = series.order >= bound.least && series.order <= bound.most});
+                         .upper = bound.most});
   part_.series.push_back(std::move(series));
   return held;
 }
