@@ -183,17 +183,33 @@ const Expected expected[] = {
 std::string name(Integrator kind) { return rule_of(kind).keyword; }
 
 void check_growth(Checks& checks) {
+  CheckCurve growths{.title = "Growth of the amplitude per step",
+                     .x_label = "z, step times frequency",
+                     .x_unit = "",
+                     .y_label = "growth per step"};
   for (const Expected& e : expected) {
+    CheckLine line{.name = name(e.kind), .x = {}, .y = {}};
+    CheckLine by_root{.name = name(e.kind) + ", by the root", .exact = true, .x = {}, .y = {}};
     for (const double z : {0.05, 0.1, 0.2, 0.4}) {
       checks.setting(fmt::format("{}, z = {}", name(e.kind), z));
       // The fit is exact for two roots; what the others leave after 100 steps, and rounding, is below 1e-9.
-      checks.near("amplitude after a step, by the root", measured_modulus(e.kind, z), physical_root(e.kind, z), 1e-9);
+      const double measured = measured_modulus(e.kind, z);
+      checks.near("amplitude after a step, by the root", measured, physical_root(e.kind, z), 1e-9);
+      line.x.push_back(z);
+      line.y.push_back(measured - 1);
     }
+    for (int i = 10; i <= 80; ++i) {
+      by_root.x.push_back(0.005 * i);
+      by_root.y.push_back(physical_root(e.kind, 0.005 * i) - 1);
+    }
+    growths.lines.push_back(line);
+    growths.lines.push_back(by_root);
     // The table's leading term; the next is z^2 = 1 % of it, with a factor of order 1 to 10.
     const double growth = measured_modulus(e.kind, 0.1) - 1;
     checks.setting(fmt::format("{}, z = 0.1", name(e.kind)));
     checks.near("growth per step, leading term", growth, e.growth, std::max(0.1 * std::fabs(e.growth), 1e-11));
   }
+  checks.curve(growths);
 }
 
 void check_limits(Checks& checks) {

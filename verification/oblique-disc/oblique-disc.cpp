@@ -69,6 +69,8 @@ struct Compared {
   double bound = 0;  // m/s
   bool sticks = false;
   bool slides = false;
+  double lost = 0;        // m/s, velocity along the plane
+  double rigid_lost = 0;  // m/s, that of the rigid polygon
 };
 
 /// The disc, and the rigid polygon beside it.
@@ -86,7 +88,9 @@ Compared compare(Checks& checks, const Impact& impact) {
   const Compared c{.apart = apart(after, polygon),
                    .bound = velocity_bound(impact, polygon.most),
                    .sticks = rubbing.sticking > 0,
-                   .slides = rubbing.sliding > 0};
+                   .slides = rubbing.sliding > 0,
+                   .lost = impact.velocity.x - after.velocity.x,
+                   .rigid_lost = impact.velocity.x - polygon.velocity.x};
   checks.at_most("velocity and rim speed apart from the rigid polygon's", c.apart, c.bound, "m/s");
   checks.holds("both stick, or neither", polygon.sticks == c.sticks);
   checks.at_least("nodes that touch at once", static_cast<double>(polygon.most), 3);
@@ -188,6 +192,8 @@ void check_all_angles(Checks& checks) {
     for (const double ratio : {1.0, 2.0 / 3}) {
       bool stuck = false;
       bool only_slid = false;
+      CheckLine disc{.name = "disc", .x = {}, .y = {}};
+      CheckLine rigid{.name = "rigid polygon", .exact = true, .x = {}, .y = {}};
       for (int angle = 5; angle <= 85; angle += 10) {
         const double slope = std::tan(angle * pi / 180);
         checks.setting(fmt::format("mu = {}, k_t/k = {:.2g}, {} deg", friction, ratio, angle));
@@ -195,7 +201,17 @@ void check_all_angles(Checks& checks) {
             compare(checks, {.velocity = {slope * 1.5, -1.5}, .friction = friction, .tangential_ratio = ratio});
         stuck = stuck || c.sticks;
         only_slid = only_slid || !c.sticks;
+        for (CheckLine* line : {&disc, &rigid}) line->x.push_back(angle);
+        disc.y.push_back(c.lost);
+        rigid.y.push_back(c.rigid_lost);
       }
+      checks.curve({.title = fmt::format("Velocity along the plane that friction takes, mu = {}, k_t/k = {:.2g}",
+                                         friction, ratio),
+                    .x_label = "angle from the normal, degrees",
+                    .x_unit = "",
+                    .y_label = "velocity lost",
+                    .y_unit = "m/s",
+                    .lines = {disc, rigid}});
       checks.setting(fmt::format("mu = {}, k_t/k = {:.2g}", friction, ratio));
       checks.holds("at some angles it sticks", stuck);
       checks.holds("at others it only slides", only_slid);

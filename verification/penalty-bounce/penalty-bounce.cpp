@@ -48,7 +48,8 @@ struct Bounce {
   double restitution = 0;
   double impulse = 0;  // N s
   double energy_error = 0;
-  double distortion = 0;  // m
+  double distortion = 0;                         // m
+  CheckLine path{.name = "", .x = {}, .y = {}};  // place over time
 };
 
 double parabola_peak(double a, double b, double c) {
@@ -70,6 +71,8 @@ Bounce bounce(const Case& input) {
     last_time = r.time();
     last_y = y;
     depth.push_back(-y);
+    out.path.x.push_back(r.time());
+    out.path.y.push_back(y);
     double sum = 0;
     for (const ContactBook& book : r.state.obstacles) sum += book.total.force.y;
     force.push_back(sum);
@@ -94,6 +97,7 @@ void check_half_cycle(Checks& checks) {
   const double duration = pi / omega;
   const double depth = speed / omega;
   const double force = speed * std::sqrt(total_mass * total_stiffness);
+  CheckCurve path{.title = "Place of the mass", .y_label = "place", .y_unit = "m"};
   ErrorSeries durations = over_step("duration");
   ErrorSeries depths = over_step("depth");
   ErrorSeries forces = over_step("force");
@@ -118,7 +122,17 @@ void check_half_cycle(Checks& checks) {
     // Impulse = change of momentum, and no corner ahead of another: rounding of 320 steps.
     checks.within("impulse", b.impulse, total_mass * speed * (1 + b.restitution), 1e-12, "N s");
     checks.at_most("one corner ahead of another", b.distortion, 1e-14, "m");
+    if (h == 2e-3 || h == 0.5e-3)
+      path.lines.push_back({.name = "steps of " + step_of(h), .x = b.path.x, .y = b.path.y});
   }
+  CheckLine exact{.name = "exact", .exact = true, .x = {}, .y = {}};
+  for (int i = 0; i <= 200; ++i) {
+    const double t = i * path.lines[0].x.back() / 200;
+    exact.x.push_back(t);
+    exact.y.push_back(t < duration ? -depth * std::sin(omega * t) : speed * (t - duration));
+  }
+  path.lines.push_back(exact);
+  checks.curve(path);
   for (const ErrorSeries& errors : {durations, depths, forces}) {
     checks.order(errors, {.expected = 2, .least = 1.85, .most = 2.15, .from = OrderFrom::ends});
   }
