@@ -126,7 +126,7 @@ TEST_CASE("the words of a row") {
   };
   CHECK(words(0) == "1.25 m|1 m|25 %|≤ 12.5 %|FAILS");
   CHECK(words(1) == "1.25 m|1 m|0.25 m|≤ 0.5 m|holds");
-  CHECK(words(2) == "2|2||1.8 … 2.2|holds");
+  CHECK(words(2) == "2.00|2.00||1.8 … 2.2|holds");
   CHECK(words(3) == "no number|||≥ 3 N|FAILS");
   CHECK(words(4) == "||||holds");
 }

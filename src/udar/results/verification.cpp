@@ -263,8 +263,12 @@ double seconds_of(const VerifiedProblem& problem) {
 CheckWords words_of(const CheckRow& row) {
   const RowNumbers numbers(row);
   const bool absolute = row.kind == CheckKind::absolute;
-  CheckWords words{.computed = numbers.text(row.computed),
-                   .exact = numbers.text(row.exact),
+  const auto text = [&](double value) {
+    const bool order = row.kind == CheckKind::order && std::isfinite(value);
+    return order ? fmt::format("{:.2f}", value) : numbers.text(value);
+  };
+  CheckWords words{.computed = text(row.computed),
+                   .exact = text(row.exact),
                    .error = absolute ? numbers.text(row.error, 3) : part(row.error),
                    .bound = bound_words(row, numbers),
                    .verdict = row.holds ? "holds" : "FAILS"};

@@ -1,13 +1,13 @@
 // tied-bars: a wave through a tie between meshes that do not match, and an even pull across it. See README.md.
 
-#include <doctest/doctest.h>
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "wave_tools.hpp"
+#include "tools.hpp"
+#include "udar/verification/problem.hpp"
 
 namespace udar::verification {
 namespace {
@@ -44,7 +44,7 @@ double stress_at(const State& state, const std::vector<Index>& elements) {
 
 /// Cells of the left and of the right bar; impedance of the right one, that of the left is 1 kg/(m2 s).
 Passage pass(double left, double right, double impedance = 1) {
-  Case input = load("tied-bars.toml");
+  Case input = load("tied-bars/tied-bars.toml");
   std::get<RectangleMesh>(input.bodies[0].mesh).element_size = left;
   std::get<RectangleMesh>(input.bodies[1].mesh).element_size = right;
   input.materials[1].density = impedance;
@@ -97,10 +97,10 @@ double reflected(const Passage& p) {
   return most;
 }
 
-void check_books(const Passage& p) {
-  CHECK(below("momentum", p.momentum, 1e-12));
-  CHECK(below("identity", p.identity, 1e-11));
-  CHECK(below("energy error", p.energy, 1e-3));
+void check_books(Checks& checks, const Passage& p) {
+  checks.at_most("momentum", p.momentum, 1e-12);
+  checks.at_most("identity", p.identity, 1e-11);
+  checks.at_most("energy error", p.energy, 1e-3);
 }
 
 /// Time at which half of what goes through passes the right gauge, s.
@@ -112,72 +112,83 @@ double late(double left, double right) {
   return to_tie * part(left) + gauge * part(right);
 }
 
-}  // namespace
+/// The push as it passes a place without a tie.
+CheckLine arriving(const char* name, double way, const std::vector<double>& times) {
+  CheckLine line{.name = name, .exact = true, .x = times, .y = {}};
+  for (const double t : times) {
+    const double part = std::clamp((t - way) / rise, 0.0, 1.0);
+    line.y.push_back(-part * part * part * (10 - 15 * part + 6 * part * part));
+  }
+  return line;
+}
 
-TEST_CASE("tied-bars: equal meshes, node on node: a layer as soft as one row of elements") {
+void check_equal(Checks& checks) {
   const double h = 0.05;
   const Passage p = pass(h, h);
   const double tau = 0.5 * h;
-  CHECK(within("stress behind the tie", p.after.mean(15.5, 18), -1, smeared(h, to_tie + gauge)));
+  checks.within("stress behind the tie, over the push", p.after.mean(15.5, 18), -1, smeared(h, to_tie + gauge));
   const double wave = 2 * std::numbers::pi / rise;  // 1/m, of the pulse that comes back
   const double bound = std::pow(wave * h, 2) * (wave * (to_tie + gauge) / 24 + 1.0 / 8);
-  CHECK(within("largest stress sent back", reflected(p), largest_reflection(tau), bound));
+  checks.within("largest stress sent back, over the push", reflected(p), largest_reflection(tau), bound);
   const double delay = arrival(p) - (to_tie + gauge + 0.5 * rise);
-  CHECK(below("delay (s)", delay, tau + late(h, h)));
-  CHECK(delay > tau - late(h, h));
-  check_books(p);
+  checks.between("delay", delay, tau - late(h, h), tau + late(h, h), "s");
+  check_books(checks, p);
+  checks.curve({.title = "Stress at the gauges, 2.5 m before and behind the tie",
+                .y_label = "stress over the push",
+                .lines = {{.name = "before", .x = p.before.times, .y = p.before.values},
+                          {.name = "behind", .x = p.after.times, .y = p.after.values},
+                          arriving("exact before, without what comes back", to_tie - gauge, p.before.times),
+                          arriving("exact behind, without the delay", to_tie + gauge, p.after.times)}});
 }
 
-TEST_CASE("tied-bars: coarse to fine and fine to coarse, nodes not on nodes") {
+void check_unequal(Checks& checks) {
   for (const auto& cells : {std::pair{0.05, 0.02}, {0.02, 0.05}, {0.05, 0.03}}) {
     const double left = cells.first;
     const double right = cells.second;
-    CAPTURE(left);
-    CAPTURE(right);
+    checks.setting(fmt::format("{} m, {} m", left, right));
     const Passage p = pass(left, right);
     const double h = std::max(left, right);
     // Between all springs, which share the load evenly at the least compliance, and half of them.
     const double tau = 0.5 * h;
-    CHECK(within("stress behind the tie", p.after.mean(15.5, 18), -1, smeared(h, to_tie + gauge)));
+    checks.within("stress behind the tie, over the push", p.after.mean(15.5, 18), -1, smeared(h, to_tie + gauge));
     const double back = reflected(p);
-    CHECK(below("largest stress sent back", back, 2 * tau * steepest));
+    checks.at_most("largest stress sent back, over the push", back, 2 * tau * steepest);
     const double delay = arrival(p) - (to_tie + gauge + 0.5 * rise);
-    CHECK(below("delay (s)", delay, 2 * tau + late(left, right)));
-    CHECK(delay > tau - late(left, right));
-    check_books(p);
+    checks.between("delay", delay, tau - late(left, right), 2 * tau + late(left, right), "s");
+    check_books(checks, p);
   }
 }
 
-TEST_CASE("tied-bars: what a tie sends back falls with the mesh") {
-  std::vector<double> back;
-  for (const double h : {0.2, 0.1, 0.05}) back.push_back(reflected(pass(h, 0.4 * h)));
-  CHECK(order_of("largest stress sent back", back) >= 0.9);
+void check_order(Checks& checks) {
+  ErrorSeries back{.what = "largest stress sent back"};
+  for (const double h : {0.2, 0.1, 0.05}) back.add(h, reflected(pass(h, 0.4 * h)));
+  checks.order(back, {.expected = 1, .least = 0.9});
 }
 
-TEST_CASE("tied-bars: two materials") {
+void check_materials(Checks& checks) {
   for (const double impedance : {0.25, 4.0}) {
-    CAPTURE(impedance);
+    checks.setting(fmt::format("Z2 / Z1 = {}", impedance));
     const double through = 2 * impedance / (1 + impedance);
     const Passage p = pass(0.05, 0.02, impedance);
     const double bound = smeared(0.05, to_tie + gauge) * std::max(1.0, 1 / through);
-    CHECK(within("stress behind the tie", p.after.mean(15.5, 18), -through, bound));
-    CHECK(within("stress before the tie", p.before.mean(15.5, 18), -through, bound));
-    check_books(p);
+    checks.within("stress behind the tie, over the push", p.after.mean(15.5, 18), -through, bound);
+    checks.within("stress before the tie, over the push", p.before.mean(15.5, 18), -through, bound);
+    check_books(checks, p);
   }
 }
 
-TEST_CASE("tied-bars: an even pull across a tie") {
+void check_pull(Checks& checks) {
   constexpr double away = 0.3;  // m
-  std::vector<double> all;
-  std::vector<double> far;
+  ErrorSeries all{.what = "stress error, L2"};
+  ErrorSeries far{.what = "stress error 0.3 m away"};
   for (const double h : {0.1, 0.05, 0.025}) {
-    Case input = load("patch.toml");
+    Case input = load("tied-bars/patch.toml");
     std::get<RectangleMesh>(input.bodies[0].mesh).element_size = h;
     std::get<RectangleMesh>(input.bodies[1].mesh).element_size = 0.4 * h;
     Run run(input);
     run.run();
     const double pull = 1e-6;
-    all.push_back(stress_error(run, [&](Vec2) { return SymTensor<double>{0, pull, 0, 0}; }).relative());
+    all.add(h, stress_error(run, [&](Vec2) { return SymTensor<double>{0, pull, 0, 0}; }).relative());
     double worst = 0;
     double worst_of_all = 0;
     for (const Body& body : run.model.bodies) {
@@ -188,14 +199,26 @@ TEST_CASE("tied-bars: an even pull across a tie") {
         if (std::fabs(rest_centroid(run.model, e).y) >= away) worst = std::max(worst, error);
       }
     }
-    far.push_back(worst / pull);
+    checks.setting(fmt::format("{} m", h));
     // A node has between nothing and twice its even part of the pull.
-    CHECK(below("stress at the tie", worst_of_all / pull, 1));
+    checks.at_most("stress off at the tie, over the pull", worst_of_all / pull, 1);
     // Wrong are forces of up to pull h / 2 at nodes, h apart: couples, whose stress falls as 1 / d^2.
-    CHECK(below("stress 0.3 m away", far.back(), h * h / (away * away)));
+    checks.at_most("stress off 0.3 m away, over the pull", worst / pull, h * h / (away * away));
+    far.add(h, worst / pull, h * h / (away * away));
   }
-  CHECK(order_of("stress error, L2", all) >= 0.45);
-  CHECK(order_of("stress error 0.3 m away", far) >= 1.8);
+  checks.order(all, {.expected = 0.5, .least = 0.45});
+  checks.order(far, {.expected = 2, .least = 1.8});
+}
+
+}  // namespace
+
+Problem tied_bars() {
+  return {.topic = Topic::waves,
+          .parts = {{"equal meshes, node on node", check_equal},
+                    {"coarse to fine and fine to coarse", check_unequal},
+                    {"what a tie sends back falls with the mesh", check_order},
+                    {"two materials", check_materials},
+                    {"an even pull across a tie", check_pull}}};
 }
 
 }  // namespace udar::verification

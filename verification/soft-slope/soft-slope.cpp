@@ -1,13 +1,14 @@
 // soft-slope: a block slides on a slope that is a body as well, against Coulomb's law. See README.md.
 
-#include <doctest/doctest.h>
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "problem.hpp"
+#include "run.hpp"
 #include "udar/step/motion.hpp"
+#include "udar/verification/problem.hpp"
 
 namespace udar::verification {
 namespace {
@@ -41,7 +42,7 @@ struct SoftSlope {
   [[nodiscard]] double slope_cell() const { return depth / std::round(depth / element_size); }
 
   [[nodiscard]] Case to_case() const {
-    Case c = load("soft-slope.toml");
+    Case c = load("soft-slope/soft-slope.toml");
     c.run.step_safety = step_safety;
     c.run.damping.rate *= std::sqrt(young / 1e6);
     c.contact.friction = friction;
@@ -106,7 +107,8 @@ Allowance allowance(const SoftSlope& s, double speed, double window) {
           .hop = 2 * s.friction * part * std::sqrt(s.pressed() * sinks) / window};
 }
 
-void check_soft_slide(const SoftSlope& s) {
+void check_soft_slide(Checks& checks, const SoftSlope& s, const std::string& setting) {
+  checks.setting(setting);
   constexpr double half = 0.5;     // s
   constexpr double window = 0.05;  // s
   Run run(s.to_case());
@@ -117,8 +119,11 @@ void check_soft_slide(const SoftSlope& s) {
   double last_time = 0, least = 1e9, most = -1e9, largest_step = 0;
   Vec2 half_velocity, last_velocity;
   std::size_t fewest = 1000;
+  CheckLine speeds{.name = "computed", .x = {}, .y = {}};
   while (!run.done()) {
     run.step();
+    speeds.x.push_back(run.time());
+    speeds.y.push_back(dot(block_velocity(run), down));
     if (run.time() < half) continue;
     if (last_time == 0) {
       last_time = run.time();
@@ -151,39 +156,37 @@ void check_soft_slide(const SoftSlope& s) {
   const Allowance part = allowance(s, speed, window);
   const double lag = s.friction * s.pressed() * build_up + begun * time;
   const double way = block_way(run, down);
-  MESSAGE("soft slope " << s.angle / degree << " deg, mu " << s.friction << ", elements " << s.element_size
-                        << " m: way " << way << " / " << 0.5 * exact << " m, ahead by at most " << lag
-                        << "; acceleration " << acceleration << " / " << exact << " m/s2, " << missed
-                        << " of it friction not begun (bound " << begun << "), lean " << whole.lean << ", hop "
-                        << whole.hop << "; in windows " << least << " to " << most << ", hop " << part.hop
-                        << "; energy error " << run.state.ledger.energy_error() << "; " << run.state.clock.step
-                        << " steps, touches " << fewest << " or more");
   // To rounding: impulses, and friction mu times the normal force in every touch.
   const Vec2 weight = mass * time * run.model.run.gravity;
-  CHECK(length(mass * change - weight - late.normal - late.friction) <= 1e-12 * length(weight));
   const Vec2 coulomb = s.friction * perpendicular(late.normal - late.missed);
-  CHECK(length(late.friction - coulomb) <= 1e-12 * length(weight));
+  checks.at_most("momentum less weight and impulses, over the weight",
+                 length(mass * change - weight - late.normal - late.friction) / length(weight), 1e-12);
+  checks.at_most("friction impulse less mu times normal impulse, but where a touch begins, over the weight",
+                 length(late.friction - coulomb) / length(weight), 1e-12);
   // The slope's bends and hops of the block, and what friction misses.
-  CHECK(missed <= begun);
-  CHECK(std::fabs(acceleration - missed - exact) <= whole.lean + whole.hop);
-  CHECK(least >= exact - part.lean - part.hop);
-  CHECK(most <= exact + part.lean + part.hop + 2 * begun);
-  CHECK(way >= 0.5 * exact - 0.5 * whole.lean);
-  CHECK(way <= 0.5 * exact + lag + 0.5 * whole.lean);
+  checks.at_most("acceleration by friction that has not begun", missed, begun, "m/s^2");
+  checks.near("the rest of the acceleration", acceleration - missed, exact, whole.lean + whole.hop, "m/s^2");
+  checks.at_least("least acceleration over 0.05 s", least, exact - part.lean - part.hop, "m/s^2");
+  checks.at_most("largest acceleration over 0.05 s", most, exact + part.lean + part.hop + 2 * begun, "m/s^2");
+  checks.between("way in 1 s", way, 0.5 * exact - 0.5 * whole.lean, 0.5 * exact + lag + 0.5 * whole.lean, "m");
   // Nothing is shut out, and the run calls its books good.
-  CHECK(fewest >= 11);
-  CHECK(run.state.ledger.energy_error() <= 1e-3);
-  CHECK(run.state.ledger.identity_error() <= 1e-11);
+  checks.at_least("touches at any time", static_cast<double>(fewest), 11);
+  checks.at_most("energy error", run.state.ledger.energy_error(), 1e-3);
+  checks.at_most("identity of work", run.state.ledger.identity_error(), 1e-11);
+  if (s.element_size != 0.02 || s.young != 1e6 || s.step_safety != 0.9) return;
+  const double end = speeds.x.back();
+  checks.curve({.title = "Velocity of the block, " + setting,
+                .y_label = "velocity",
+                .y_unit = "m/s",
+                .lines = {speeds, {.name = "exact", .exact = true, .x = {0, end}, .y = {0, exact * end}}}});
 }
 
-}  // namespace
-
-TEST_CASE("soft-slope: sliding at 30 and 20 degrees") {
-  check_soft_slide({});
-  check_soft_slide({.angle = 20 * degree, .friction = 0.3});
+void check_slides(Checks& checks) {
+  check_soft_slide(checks, {}, "30 deg, mu = 0.2");
+  check_soft_slide(checks, {.angle = 20 * degree, .friction = 0.3}, "20 deg, mu = 0.3");
 }
 
-TEST_CASE("soft-slope: sticking") {
+void check_sticking(Checks& checks) {
   const SoftSlope slope{.friction = 0.6};
   Run run(slope.to_case());
   const Vec2 down = slope.down();
@@ -205,11 +208,6 @@ TEST_CASE("soft-slope: sticking") {
   }
   const double weight = run.model.bodies[0].mass * g;
   const double along = -dot(late.normal + late.friction, down) / late.time;
-  MESSAGE("soft slope: moved " << half_way << " m in the first 0.5 s, then by " << highest - lowest << " m; "
-                               << late_slides << " touch-steps of sliding after 0.5 s; force of the slope along it "
-                               << along / weight << " / " << std::sin(slope.angle) << " of the weight");
-  CHECK(late_slides == 0);
-  CHECK(half_way > 0);
   // Friction is missing until the column of slope and block has swung down, and what the normal force lacks until it
   // has sunk; the speed gained is lost at mu g cos - g sin, which is little.
   const double column = SoftSlope::depth + SoftSlope::height;
@@ -217,17 +215,34 @@ TEST_CASE("soft-slope: sticking") {
   const double sink = column / slope.pressure_speed();
   const double gained = g * std::sin(slope.angle) * swing + slope.friction * slope.pressed() * sink;
   const double bound = gained * swing + 0.5 * gained * gained / -slope.acceleration();
-  MESSAGE("it may move " << bound << " m before it sticks");
-  CHECK(half_way < bound);
-  CHECK(highest - lowest <= 1e-9 * SoftSlope::height);
-  CHECK(along == doctest::Approx(weight * std::sin(slope.angle)).epsilon(1e-6));
+  checks.equal("touch-steps of sliding after 0.5 s", static_cast<double>(late_slides), 0);
+  checks.above("way in the first 0.5 s", half_way, 0, "m");
+  checks.below("the same, against what the start costs", half_way, bound, "m");
+  checks.at_most("way after 0.5 s, over the height", (highest - lowest) / SoftSlope::height, 1e-9);
+  checks.within("force of the slope along it, over the weight", along / weight, std::sin(slope.angle), 1e-6);
 }
 
-TEST_CASE("soft-slope: meshed coarser, finer and as the block, stiffer, in shorter steps") {
-  for (const double size : {0.04, 0.013, 0.01, 0.005}) check_soft_slide({.element_size = size});
-  check_soft_slide({.young = 4e6});
-  check_soft_slide({.step_safety = 0.45});
-  check_soft_slide({.angle = 20 * degree, .friction = 0.3, .element_size = 0.005});
+void check_meshes(Checks& checks) {
+  for (const double size : {0.04, 0.013, 0.01, 0.005}) {
+    check_soft_slide(checks, {.element_size = size}, fmt::format("elements of {} cm", 100 * size));
+  }
+}
+
+void check_others(Checks& checks) {
+  check_soft_slide(checks, {.young = 4e6}, "E = 4 MPa");
+  check_soft_slide(checks, {.step_safety = 0.45}, "half the step");
+  check_soft_slide(checks, {.angle = 20 * degree, .friction = 0.3, .element_size = 0.005},
+                   "20 deg, mu = 0.3, elements of 0.5 cm");
+}
+
+}  // namespace
+
+Problem soft_slope() {
+  return {.topic = Topic::friction,
+          .parts = {{"sliding at 30 and 20 degrees", check_slides},
+                    {"sticking", check_sticking},
+                    {"meshed coarser, finer and as the block", check_meshes},
+                    {"stiffer, in shorter steps, on a flatter slope", check_others}}};
 }
 
 }  // namespace udar::verification
