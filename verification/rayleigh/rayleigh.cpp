@@ -1,4 +1,11 @@
-#include "wave_tools.hpp"
+// rayleigh: the surface wave of a pushed half-plane, against Lamb's solution. See README.md.
+
+#include <fmt/core.h>
+
+#include <numbers>
+
+#include "tools.hpp"
+#include "udar/verification/problem.hpp"
 
 namespace udar::verification {
 namespace {
@@ -64,8 +71,9 @@ struct HalfPlaneSolution {
 };
 
 struct Surface {
-  double speed;    ///< m/s, from the arrivals at the two stations
-  double history;  ///< relative L2 error of the velocity along the surface at the far station, whole passage
+  double speed;               ///< m/s, from the arrivals at the two stations
+  double history;             ///< relative L2 error of the velocity along the surface at the far station, whole passage
+  CheckLine computed, exact;  ///< that velocity over time
 };
 
 constexpr double far_station = 1.2;
@@ -104,8 +112,8 @@ double delay(const Record& computed, const ExactRecord& exact) {
 
 Surface push(double poisson, double element_size) {
   const HalfPlaneSolution exact(poisson);
-  Run run(load("rayleigh.toml", {fmt::format("bodies.ground.mesh.element_size={} mm", 1e3 * element_size),
-                                 fmt::format("materials.steel.poisson_ratio={}", poisson)}));
+  Run run(load("rayleigh/rayleigh.toml", {fmt::format("bodies.ground.mesh.element_size={} mm", 1e3 * element_size),
+                                          fmt::format("materials.steel.poisson_ratio={}", poisson)}));
   const Index near = run.model.observed_nodes[0].node;
   const Index far = run.model.observed_nodes[1].node;
   Record at_near, at_far;
@@ -122,7 +130,12 @@ Surface push(double poisson, double element_size) {
   });
   const double distance = run.model.rest[far].x - run.model.rest[near].x;
   const double time = distance * exact.rayleigh + delay(at_far, exact_far) - delay(at_near, exact_near);
-  return {distance / time, std::sqrt(error / norm)};
+  CheckLine lamb{.name = "Lamb", .exact = true, .x = at_far.times, .y = {}};
+  for (const double t : at_far.times) lamb.y.push_back(exact_far.at(t));
+  return {distance / time,
+          std::sqrt(error / norm),
+          {.name = fmt::format("h = {} mm", 1e3 * element_size), .x = at_far.times, .y = at_far.values},
+          lamb};
 }
 
 // Linear elements, lumped masses and central difference carry wave number k at c (1 - (k h)^2 / 24) in one dimension.
@@ -136,43 +149,45 @@ double history_bound(double element_size, double speed) {
   return 1.75 * std::pow(element_size / l, 2) * std::sqrt(12.0) * far_station / l;
 }
 
-void check_speed(double poisson, double ratio, const std::vector<double>& sizes) {
+void check_speed(Checks& checks, double poisson, double ratio, const std::vector<double>& sizes) {
   const HalfPlaneSolution exact(poisson);
   const double c_s = 1 / exact.b;
   const double c_r = 1 / exact.rayleigh;
-  CHECK(within(fmt::format("c_R / c_S, nu = {}", poisson), c_r / c_s, ratio, 0.0000005 / ratio));
-  std::vector<double> errors, histories;
+  checks.within("c_R / c_S", c_r / c_s, ratio, 0.0000005 / ratio);
+  ErrorSeries errors{.what = "c_R"};
+  ErrorSeries histories{.what = "velocity along the surface at 1.2 m, L2 error"};
+  CheckCurve record{.title = fmt::format("Velocity along the surface, 1.2 m from the force, nu = {}", poisson),
+                    .y_label = "velocity",
+                    .y_unit = "m/s"};
   for (const double h : sizes) {
+    checks.setting(fmt::format("h = {} mm", 1e3 * h));
     const Surface surface = push(poisson, h);
-    CHECK(within(fmt::format("nu = {}, h = {} mm: c_R (m/s)", poisson, 1e3 * h), surface.speed, c_r,
-                 speed_bound(h, c_r)));
-    CHECK(below(fmt::format("nu = {}, h = {} mm: velocity along the surface at 1.2 m, L2 error", poisson, 1e3 * h),
-                surface.history, history_bound(h, c_r)));
-    errors.push_back(std::fabs(surface.speed / c_r - 1));
-    histories.push_back(surface.history);
+    checks.within("c_R", surface.speed, c_r, speed_bound(h, c_r), "m/s");
+    checks.at_most("velocity along the surface at 1.2 m, L2 error", surface.history, history_bound(h, c_r));
+    errors.add(h, std::fabs(surface.speed / c_r - 1), speed_bound(h, c_r));
+    histories.add(h, surface.history, history_bound(h, c_r));
+    record.lines.push_back(surface.computed);
+    if (h == sizes.back()) record.lines.push_back(surface.exact);
   }
-  order_of("error of c_R", errors);
-  CHECK(order_of("velocity along the surface at 1.2 m, L2 error", histories) >= 1.5);
+  checks.series(errors);
+  checks.order(histories, {.expected = 2, .least = 1.5});
+  checks.curve(record);
 }
 
-}  // namespace
-
-TEST_CASE("rayleigh: the root") {
-  for (const auto& [poisson, ratio] : {std::pair{0.3, 0.927413}, std::pair{0.25, 0.919402}}) {
+void check_root(Checks& checks) {
+  for (const double poisson : {0.3, 0.25}) {
+    const double ratio = poisson == 0.3 ? 0.927413 : 0.919402;
     const double k = (1 - 2 * poisson) / (2 - 2 * poisson);
     const auto f = [&](double x) {
       return std::pow(2 - x * x, 2) - 4 * std::sqrt(1 - x * x) * std::sqrt(1 - k * x * x);
     };
-    CHECK(within(fmt::format("c_R / c_S, nu = {}", poisson), root_between(f, 0.5, 1 - 1e-9), ratio, 0.0000005 / ratio));
+    checks.setting(fmt::format("nu = {}", poisson));
+    checks.within("c_R / c_S", root_between(f, 0.5, 1 - 1e-9), ratio, 0.0000005 / ratio);
   }
 }
 
-TEST_CASE("rayleigh: surface wave, nu = 0.3") { check_speed(0.3, 0.927413, {0.02, 0.01}); }
-TEST_CASE("rayleigh: surface wave, nu = 0.25") { check_speed(0.25, 0.919402, {0.02, 0.01}); }
-TEST_CASE("rayleigh: finer mesh (long)") { check_speed(0.3, 0.927413, {0.02, 0.01, 0.005}); }
-
-TEST_CASE("rayleigh: the whole half-plane stays symmetric") {
-  Case c = load("rayleigh.toml");
+void check_symmetry(Checks& checks) {
+  Case c = load("rayleigh/rayleigh.toml");
   c.supports.clear();
   c.observed_nodes.clear();  // their places are outside of this smaller piece
   c.run.end_time = 100e-6;
@@ -182,8 +197,30 @@ TEST_CASE("rayleigh: the whole half-plane stays symmetric") {
   mesh.at = {-0.4, -0.4};
   Run run(c);
   run.run();
-  CHECK(below("mirror symmetry of all velocities", mirror_error(run, true, 0, 1), 1e-11));
-  CHECK(below("momentum: change less impulses", momentum_error(run), 1e-12));
+  checks.at_most("mirror symmetry of all velocities", mirror_error(run, true, 0, 1), 1e-11);
+  checks.at_most("momentum: change less impulses", momentum_error(run), 1e-12);
+}
+
+}  // namespace
+
+Problem rayleigh() {
+  return {.topic = Topic::waves,
+          .parts = {{"the root", check_root},
+                    {"surface wave, nu = 0.3",
+                     [](Checks& checks) {
+                       check_speed(checks, 0.3, 0.927413, {0.02, 0.01});
+                     }},
+                    {"surface wave, nu = 0.25",
+                     [](Checks& checks) {
+                       check_speed(checks, 0.25, 0.919402, {0.02, 0.01});
+                     }},
+                    {"the whole half-plane stays symmetric", check_symmetry},
+                    {.name = "finer mesh",
+                     .check =
+                         [](Checks& checks) {
+                           check_speed(checks, 0.3, 0.927413, {0.02, 0.01, 0.005});
+                         },
+                     .is_long = true}}};
 }
 
 }  // namespace udar::verification

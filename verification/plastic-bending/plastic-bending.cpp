@@ -1,13 +1,13 @@
 // plastic-bending: a beam bent beyond the elastic limit and back, against the exact moment. See README.md.
 
-#include <doctest/doctest.h>
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "wave_tools.hpp"
+#include "tools.hpp"
+#include "udar/verification/problem.hpp"
 
 namespace udar::verification {
 namespace {
@@ -84,7 +84,7 @@ struct Bent {
 };
 
 Bent bend(double element_size) {
-  Case input = load("plastic-bending.toml");
+  Case input = load("plastic-bending/plastic-bending.toml");
   std::get<RectangleMesh>(input.bodies[0].mesh).element_size = element_size;
   Run run(input);
   Bent out;
@@ -127,11 +127,39 @@ double value_at(const Record& record, double at) {
   return record.values.back();
 }
 
+/// Moment over curvature, up and back.
+CheckCurve against_curvature(const Bent& bent, double element_size) {
+  CheckLine up{.name = fmt::format("cells of {} mm, bent", 1e3 * element_size),
+               .x = bent.loading.times,
+               .y = bent.loading.values};
+  CheckLine back{.name = "bent back", .x = bent.unloading.values, .y = {}};
+  for (const double m : bent.unloading.times) back.y.push_back(-m);
+  std::reverse(back.x.begin(), back.x.end());
+  std::reverse(back.y.begin(), back.y.end());
+  CheckLine nadai{.name = "Nadai", .exact = true, .x = {}, .y = {}};
+  for (int i = 1; i <= 300; ++i) {
+    nadai.x.push_back(bent.held.curvature * i / 300);
+    nadai.y.push_back(exact_moment(nadai.x.back()));
+  }
+  const double most = exact_moment(bent.held.curvature);
+  const CheckLine springback{.name = "elastic springback",
+                             .exact = true,
+                             .x = {bent.held.curvature - most / stiffness, bent.held.curvature},
+                             .y = {0, most}};
+  return {.title = "Moment against curvature",
+          .x_label = "curvature",
+          .x_unit = "1/m",
+          .y_label = "moment",
+          .y_unit = "N m",
+          .lines = {up, back, nadai, springback}};
+}
+
 struct Errors {
   double elastic, plastic;
 };
 
-Errors check_bending(double element_size) {
+Errors check_bending(Checks& checks, double element_size) {
+  checks.setting(fmt::format("cells of {} mm", 1e3 * element_size));
   const Bent bent = bend(element_size);
   const double fine = element_size / height;
   // Both from the linear interpolation of the exact motion in a crossed cell, which the mesh could follow: its error in
@@ -144,48 +172,58 @@ Errors check_bending(double element_size) {
     const double moment = value_at(bent.loading, ratio * limit_curvature);
     const double exact = exact_moment(ratio * limit_curvature);
     if (ratio == 0.5) errors.elastic = moment / exact - 1;
-    CHECK(within(fmt::format("moment at {} of the limit (N m)", ratio), moment, exact,
-                 ratio > 1 ? plastic(ratio) : elastic));
+    checks.within(fmt::format("moment at {} of the limit curvature", ratio), moment, exact,
+                  ratio > 1 ? plastic(ratio) : elastic, "N m");
   }
   const double ratio = bent.held.curvature / limit_curvature;
   const double most = exact_moment(bent.held.curvature);
-  MESSAGE(fmt::format("held at {:.4g} of the limit curvature", ratio));
-  CHECK(within("moment while held (N m)", bent.held.moment, most, plastic(ratio)));
-  CHECK(within("that of the support (N m)", bent.support, most, plastic(ratio)));
-  CHECK(bent.held.moment < (1 + plastic(ratio)) * 1.5 * limit_moment);
+  checks.note(fmt::format("Cells of {} mm: held at {:.4g} of the limit curvature.", 1e3 * element_size, ratio));
+  checks.within("moment while held", bent.held.moment, most, plastic(ratio), "N m");
+  checks.within("that of the support", bent.support, most, plastic(ratio), "N m");
+  checks.below("moment while held, against the limit moment", bent.held.moment,
+               (1 + plastic(ratio)) * 1.5 * limit_moment, "N m");
   errors.plastic = bent.held.moment / most - 1;
   // Springback: the whole moment comes off elastically.
   const double left = value_at(bent.unloading, 0);
-  CHECK(within("springback (1/m)", bent.held.curvature - left, most / stiffness, plastic(ratio)));
+  checks.within("springback", bent.held.curvature - left, most / stiffness, plastic(ratio), "1/m");
   // The fibres' strain is ln(1 + kappa y): the mean of its square term, (kappa h)^2 / 24, against kappa h / 2.
-  CHECK(below("axial force over 2 k h", bent.axial, bent.held.curvature * height));
+  checks.at_most("axial force over 2 k h", bent.axial, bent.held.curvature * height);
   // s_z stays between s_y and s_x, flow is in the plane and s_z is elastic.
-  CHECK(below("s_z off nu (s_x + s_y), over 2 k", bent.across, 1e-9));
+  checks.at_most("s_z off nu (s_x + s_y), over 2 k", bent.across, 1e-9);
   // Mesh, supports and motion are mirrored: what is left is rounding, which flow does not make grow.
-  CHECK(below("moments of both supports together", bent.uneven, 1e-9));
-  CHECK(below("kinetic over internal energy", bent.kinetic, 0.01));
-  CHECK(below("energy error", bent.energy_error, 1e-3));
+  checks.at_most("moments of both supports together", bent.uneven, 1e-9);
+  checks.at_most("kinetic over internal energy", bent.kinetic, 0.01);
+  checks.at_most("energy error", bent.energy_error, 1e-3);
+  checks.curve(against_curvature(bent, element_size));
   return errors;
+}
+
+void check_limits(Checks& checks) {
+  checks.within("limit moment", limit_moment, 166.667e3, 1e-5, "N m");
+  checks.within("limit curvature", limit_curvature, 0.0728, 1e-5, "1/m");
+}
+
+void check_orders(Checks& checks) {
+  ErrorSeries elastic{.what = "elastic moment"};
+  ErrorSeries plastic{.what = "moment while held"};
+  for (const double size : {0.01, 0.005, 0.0025}) {
+    const Errors errors = check_bending(checks, size);
+    elastic.add(size, std::fabs(errors.elastic));
+    plastic.add(size, std::fabs(errors.plastic));
+  }
+  // Squares of the strain error in the elastic range; beyond it at least its first power.
+  checks.order(elastic, {.expected = 2, .least = 1.8});
+  checks.order(plastic, {.least = 1});
 }
 
 }  // namespace
 
-TEST_CASE("plastic-bending: five cells through the height") {
-  CHECK(limit_moment == doctest::Approx(166.667e3).epsilon(1e-5));
-  CHECK(limit_curvature == doctest::Approx(0.0728).epsilon(1e-5));
-  check_bending(0.01);
-}
-TEST_CASE("plastic-bending: ten cells through the height") { check_bending(0.005); }
-TEST_CASE("plastic-bending: order over five, ten and twenty cells (long)") {
-  std::vector<double> elastic, plastic;
-  for (const double size : {0.01, 0.005, 0.0025}) {
-    const Errors errors = check_bending(size);
-    elastic.push_back(std::fabs(errors.elastic));
-    plastic.push_back(std::fabs(errors.plastic));
-  }
-  // Squares of the strain error in the elastic range; beyond it at least its first power.
-  CHECK(order_of("elastic moment", elastic) > 1.8);
-  CHECK(order_of("moment while held", plastic) > 1);
+Problem plastic_bending() {
+  return {.topic = Topic::plasticity,
+          .parts = {{"where yielding begins", check_limits},
+                    {"five cells through the height", [](Checks& checks) { check_bending(checks, 0.01); }},
+                    {"ten cells through the height", [](Checks& checks) { check_bending(checks, 0.005); }},
+                    {.name = "five, ten and twenty cells", .check = check_orders, .is_long = true}}};
 }
 
 }  // namespace udar::verification
