@@ -252,7 +252,7 @@ void check_below(Checks& checks) {
 void check_case(Checks& checks) {
   Run run(load("element-step/element-step.toml"));
   double largest = 0;
-  run.run([&](const auto& now) { largest = std::max(largest, now.state.ledger.half_step_kinetic); });
+  run.run([&](const Run& now) { largest = std::max(largest, now.state.ledger.half_step_kinetic); });
   checks.note(fmt::format("{} steps of {:.6g} s; limit {:.6g} s.", run.state.clock.step, run.state.clock.largest_step,
                           run.state.clock.limit.size));
   const double ratio = run.state.clock.largest_step / run.state.clock.limit.size;

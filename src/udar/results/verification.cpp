@@ -162,6 +162,7 @@ void for_each_member(T& p, Visit visit) {
   visit("series", p.series);
   visit("curves", p.curves);
   visit("notes", p.notes);
+  visit("page_rows", p.page_rows);
 }
 
 template <Is<VerifiedProblem> T, class Visit>

@@ -84,6 +84,7 @@ struct VerifiedPart {
   std::vector<ErrorSeries> series{};
   std::vector<CheckCurve> curves{};
   std::vector<std::string> notes{};
+  std::vector<std::string> page_rows{};  ///< "| name | cells |", for the tables of a shipped case's own page
 };
 
 /// A problem as it came out.

@@ -63,6 +63,10 @@ class Checks {
   void curve(CheckCurve curve);
   /// A sentence for the page.
   void note(std::string text) { part_.notes.push_back(std::move(text)); }
+  /// A row of a table in the page of a shipped case, known there by its first cell: scripts/verification replaces it.
+  void page_row(const std::string& first, const std::string& cells) {
+    part_.page_rows.push_back("| " + first + " | " + cells + " |");
+  }
 
  private:
   bool add(CheckRow row);
