@@ -58,7 +58,8 @@ std::string part(double error) {
 struct RowNumbers {
   explicit RowNumbers(const CheckRow& row) {
     const bool known = std::isfinite(row.exact);
-    const double size = std::max(std::fabs(row.computed), known ? std::fabs(row.exact) : 0.0);
+    // Beside a much larger bound its unit serves better.
+    const double size = std::max(std::fabs(row.computed), known ? std::fabs(row.exact) : 0.1 * std::fabs(row.bound));
     // Rounding of a force is 1e-12 N, not 1e-9 mN.
     unit = size > 1e-9 && size < 1e12 ? human_unit(row.unit, size) : HumanUnit{typeset(row.unit), 1};
     if (row.unit.empty()) unit = {};
