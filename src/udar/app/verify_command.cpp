@@ -112,7 +112,8 @@ ExitCode list_problems(const Arguments& arguments) {
     say("  {:<16}  {}\n", problem.id, problem.title);
   }
   if (arguments.names.empty()) {
-    say("\nOrders that `udar converge` finds by itself are a test of that command: verification/convergence/README.md.\n");
+    say("\nOrders that `udar converge` finds by itself are a test of that command: "
+        "verification/convergence/README.md.\n");
   }
   return ExitCode::done;
 }

@@ -19,9 +19,9 @@ struct Link {
 bool find_link(std::string_view text, std::size_t at, Link& link) {
   if (text[at] != '[') return false;
   const std::size_t middle = text.find(']', at);
-  if (middle == text.npos || middle + 1 >= text.size() || text[middle + 1] != '(') return false;
+  if (middle == std::string_view::npos || middle + 1 >= text.size() || text[middle + 1] != '(') return false;
   const std::size_t end = text.find(')', middle);
-  if (end == text.npos) return false;
+  if (end == std::string_view::npos) return false;
   link = {text.substr(at + 1, middle - at - 1), text.substr(middle + 2, end - middle - 2), end + 1};
   return true;
 }
@@ -31,7 +31,7 @@ bool between(std::string_view text, std::size_t at, std::string_view mark, std::
   if (!text.substr(at).starts_with(mark)) return false;
   const std::size_t begin = at + mark.size();
   const std::size_t end = text.find(mark, begin);
-  if (end == text.npos || end == begin || text[begin] == ' ') return false;
+  if (end == std::string_view::npos || end == begin || text[begin] == ' ') return false;
   inside = text.substr(begin, end - begin);
   return true;
 }
@@ -82,7 +82,7 @@ std::vector<std::string_view> lines_of(std::string_view text) {
 std::vector<std::string> cells_of(std::string_view row) {
   std::vector<std::string> cells;
   row.remove_prefix(1);
-  for (std::size_t end = 0; (end = row.find('|')) != row.npos; row.remove_prefix(end + 1)) {
+  for (std::size_t end = 0; (end = row.find('|')) != std::string_view::npos; row.remove_prefix(end + 1)) {
     cells.emplace_back(row.substr(0, end));
   }
   return cells;
@@ -99,7 +99,7 @@ class Blocks {
       body_ += escape_xml(line) + "\n";
     } else if (line.starts_with("```")) {
       open(Kind::code);
-    } else if (line.find_first_not_of(' ') == line.npos) {
+    } else if (line.find_first_not_of(' ') == std::string_view::npos) {
       close();
     } else if (line.starts_with("#")) {
       close();

@@ -27,7 +27,7 @@ std::string anchor_of(const std::string& target) {
 /// Pages of problems stand two folders deep, the manual in docs/.
 std::string from_docs(const std::string& target) {
   constexpr std::string_view docs = "../../docs/";
-  if (const std::string anchor = anchor_of(target); !anchor.empty()) return anchor;
+  if (std::string anchor = anchor_of(target); !anchor.empty()) return anchor;
   if (target.starts_with(docs)) return target.substr(docs.size());
   return target.starts_with("../../") ? target.substr(3) : target;
 }
@@ -71,7 +71,7 @@ std::string seconds_words(double seconds) { return fmt::format("{:.{}f} s", seco
 // --- Markdown
 
 std::string cell(std::string text) {
-  for (std::size_t at = 0; (at = text.find('|', at)) != text.npos; at += 2) text.insert(at, "\\");
+  for (std::size_t at = 0; (at = text.find('|', at)) != std::string_view::npos; at += 2) text.insert(at, "\\");
   return text;
 }
 
@@ -158,7 +158,7 @@ std::string html_table(const VerifiedPart& part) {
 std::string inlined(const std::string& svg) {
   const std::size_t begin = svg.find("<defs>");
   const std::size_t end = svg.find("</defs>");
-  if (begin == svg.npos || end == svg.npos) return svg;
+  if (begin == std::string::npos || end == std::string::npos) return svg;
   return svg.substr(0, begin) + svg.substr(end + std::string_view("</defs>\n").size());
 }
 

@@ -26,7 +26,7 @@ void read_page(Problem& problem) {
   const std::size_t end = std::min(page.find('\n'), page.size());
   const std::string_view first = page.substr(0, end);
   const std::size_t colon = first.find(": ");
-  problem.title = colon == first.npos ? problem.id : first.substr(colon + 2);
+  problem.title = colon == std::string_view::npos ? problem.id : first.substr(colon + 2);
   problem.text = page.substr(std::min(page.find_first_not_of('\n', end), page.size()));
 }
 
