@@ -109,7 +109,9 @@ ExitCode list_problems(const Arguments& arguments) {
     if (first || problem.topic != topic) say("{}{}\n", first ? "" : "\n", title_of(problem.topic));
     first = false;
     topic = problem.topic;
-    say("  {:<16}  {}\n", problem.id, problem.title);
+    const bool any_long =
+        std::any_of(problem.parts.begin(), problem.parts.end(), [](const auto& p) { return p.is_long; });
+    say("  {:<16}  {}{}\n", problem.id, problem.title, any_long ? " (--long: more)" : "");
   }
   if (arguments.names.empty()) {
     say("\nOrders that `udar converge` finds by itself are a test of that command: "
