@@ -52,8 +52,8 @@ fs::path folder_for(const RunArguments& arguments, const std::string& case_name)
 
 /// The command line that repeats the run.
 std::string command_text(const RunArguments& arguments) {
-  std::string text = "udar run " + arguments.input.file;
-  for (const std::string& assignment : arguments.input.assignments) text += " --set '" + assignment + "'";
+  std::string text = "udar run " + shell_word(arguments.input.file);
+  for (const std::string& assignment : arguments.input.assignments) text += " --set " + shell_word(assignment);
   return text;
 }
 
@@ -196,7 +196,7 @@ ExitCode run_case(const RunArguments& arguments) {
   const Summary summary = compute(arguments, options, report);
   if (summary.stop_reason == "numerical" || summary.stop_reason == "disk") {
     flush_terminal();
-    fmt::print(stderr, "error: {}\n", summary.reasons.front());
+    complain("error: {}\n", summary.reasons.front());
   }
   Made made;
   if (report) made = make_report(*options.folder);
