@@ -35,11 +35,46 @@ Counts counts_of(const RingMesh& mesh, double size) {
   return {2 * layers * around, 2 * around};
 }
 
+/// How long a named side is and how deep the body behind it, m.
+struct Side {
+  double length = 0;
+  double depth = 0;
+};
+
+Side side_of(const RectangleMesh& mesh) {
+  const bool level = mesh.finest_side == "bottom" || mesh.finest_side == "top";
+  return {level ? mesh.size.x : mesh.size.y, std::min(mesh.size.x, mesh.size.y)};
+}
+
+Side side_of(const DiscMesh& mesh) { return {2 * std::numbers::pi * mesh.radius, mesh.radius}; }
+
+Side side_of(const RingMesh& mesh) {
+  const double radius = mesh.finest_side == "outer" ? mesh.outer_radius : mesh.inner_radius;
+  return {2 * std::numbers::pi * radius, mesh.outer_radius - mesh.inner_radius};
+}
+
+/// Elements of the finest size that a grading asks for, one for each square of that size: in a quarter of a disc round
+/// a point, which may lie in a corner, or in one row along a side and the rows behind it.
+template <class Shape>
+double finest_elements(const Shape& mesh) {
+  if (!mesh.finest_size) return 0;
+  const Side side = side_of(mesh);
+  const double rows = std::min(mesh.finest_within, side.depth) / *mesh.finest_size;
+  if (mesh.finest_at) return 0.25 * std::numbers::pi * rows * rows;
+  return side.length / *mesh.finest_size * std::max(1.0, rows);
+}
+
+template <class Shape>
+Counts counts_of(const Shape& mesh) {
+  Counts counts = counts_of(mesh, coarse_size(grading_of(mesh), mesh.element_size));
+  counts.elements = std::max(counts.elements, finest_elements(mesh));
+  return counts;
+}
+
 Counts counts_of(const Case& c) {
   Counts sum;
   for (const BodyCase& body : c.bodies) {
-    const Counts one = std::visit(
-        [](const auto& mesh) { return counts_of(mesh, coarse_size(grading_of(mesh), mesh.element_size)); }, body.mesh);
+    const Counts one = std::visit([](const auto& mesh) { return counts_of(mesh); }, body.mesh);
     // A body may have a single element, and a case thousands of bodies.
     sum.elements += std::max(one.elements, 1.0);
     sum.outer_nodes += std::max(one.outer_nodes, 3.0);
