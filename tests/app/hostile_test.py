@@ -342,6 +342,10 @@ class Folders(Scratch):
         self.assertEqual(list((self.folder / "empty").iterdir()), [])
         self.assertFalse((self.folder / "nowhere").exists())
         self.untouched()
+        # Whoever writes the slash means the folder.
+        link.symlink_to(self.folder / "empty")
+        self.udar("run", "case.toml", "--output", "runs/case/")
+        self.assertTrue((self.folder / "empty/summary.json").is_file())
 
     def test_links_in_a_run_folder(self):
         self.udar("run", "case.toml", "--output", "run")
