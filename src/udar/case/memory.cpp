@@ -7,6 +7,7 @@
 #include "udar/base/memory.hpp"
 #include "udar/mesh/cells.hpp"
 #include "udar/mesh/grading.hpp"
+#include "udar/model/state.hpp"
 
 namespace udar {
 namespace {
@@ -53,21 +54,26 @@ Side side_of(const RingMesh& mesh) {
   return {2 * std::numbers::pi * radius, mesh.outer_radius - mesh.inner_radius};
 }
 
-/// Elements of the finest size that a grading asks for, one for each square of that size: in a quarter of a disc round
-/// a point, which may lie in a corner, or in one row along a side and the rows behind it.
+/// Elements that a grading asks for: two for each square of the size that they may have. Round a point, which may lie
+/// in a corner, only those of the finest size are counted, in a quarter of a disc. Along a side of length L there are L
+/// / s^2 squares for each metre of depth d, where s = finest + (growth - 1) d behind the depth in which all are finest.
 template <class Shape>
-double finest_elements(const Shape& mesh) {
+double graded_elements(const Shape& mesh) {
   if (!mesh.finest_size) return 0;
+  constexpr double per_square = 1.9;  // of a disc; of others 2
+  const double finest = *mesh.finest_size;
   const Side side = side_of(mesh);
-  const double rows = std::min(mesh.finest_within, side.depth) / *mesh.finest_size;
-  if (mesh.finest_at) return 0.25 * std::numbers::pi * rows * rows;
-  return side.length / *mesh.finest_size * std::max(1.0, rows);
+  const double within = std::min(mesh.finest_within, side.depth);
+  if (mesh.finest_at) return per_square * 0.25 * std::numbers::pi * (within / finest) * (within / finest);
+  const double coarsest = std::min(mesh.element_size, finest + (mesh.growth - 1) * (side.depth - within));
+  const double behind = (1 - finest / coarsest) / (mesh.growth - 1);
+  return per_square * side.length / finest * (within / finest + behind);
 }
 
 template <class Shape>
 Counts counts_of(const Shape& mesh) {
   Counts counts = counts_of(mesh, coarse_size(grading_of(mesh), mesh.element_size));
-  counts.elements = std::max(counts.elements, finest_elements(mesh));
+  counts.elements = std::max(counts.elements, graded_elements(mesh));
   return counts;
 }
 
@@ -82,8 +88,8 @@ Counts counts_of(const Case& c) {
   return sum;
 }
 
-/// Springs of an obstacle at each outer node.
-constexpr double bytes_per_spring = 2 * sizeof(double);
+/// Of an obstacle at each outer node: how stiff its springs are, and their state.
+constexpr double bytes_per_spring = 2 * sizeof(double) + sizeof(SpringState);
 
 double memory_of(const Case& c, const Counts& counts) {
   return least_bytes_per_element * counts.elements +
