@@ -89,9 +89,9 @@ class CommandLine(Program):
 
     def test_wrong_commands(self):
         for words, message, cure in [
-            ([], "a command is needed: run, check, converge, sweep, diff, report, plot, picture, movie or keys", "udar --help"),
+            ([], "a command is needed: run, resume, check, converge, sweep, diff, report, plot, picture, movie or keys", "udar --help"),
             (["rnu", "block.toml"], "`rnu` is no command", "did you mean `run`?"),
-            (["frobnicate"], "`frobnicate` is no command", "write run, check, converge, sweep, diff, report, plot, picture, movie or keys"),
+            (["frobnicate"], "`frobnicate` is no command", "write run, resume, check, converge, sweep, diff, report, plot, picture, movie or keys"),
             (["run"], "a case file is needed", "`udar run --help`"),
             (["report"], "the folder of a run is needed", "`udar report --help`"),
             (["report", "runs", "--frames", "1"], "--frames", "`udar report --help`"),
@@ -279,7 +279,7 @@ class Run(Program):
         self.udar("run", "block.toml")
         summary = self.summary("runs/block")
         for name in ["elements", "nodes", "steps", "threads", "wall_seconds", "element_steps_per_second", "end_time",
-                     "energy_error", "momentum_error", "identity_error", "verdict", "reasons", "stop_reason"]:
+                     "energy_error", "momentum_error", "spin_error", "identity_error", "verdict", "reasons", "stop_reason"]:
             self.assertIn(name, summary)
         for name in ["min", "max", "max_abs", "last"]:
             self.assertIn(name, summary["histories"]["block"]["velocity_y"])
@@ -381,6 +381,42 @@ mesh = {{ shape = "rectangle", size = ["1 cm", "1 cm"], at = ["{k * 1.0001} cm",
         self.assertEqual(float(frames[-1]), summary["end_time"])
 
 
+    def stops(self, *changes):
+        """A run that cannot go on: its error, once the folder is found to be whole, with the last good state in it."""
+        words = [word for change in changes for word in ("--set", change)]
+        out, err = self.udar("run", "block.toml", *words, code=5)
+        self.assertTrue(err.startswith("error: "), err)
+        self.assertIn("verdict: bad", out)
+        self.assertEqual(self.names("runs/block"), WHOLE)
+        summary = self.summary("runs/block")
+        self.assertEqual(summary["stop_reason"], "numerical")
+        self.assertEqual(summary["reasons"][0], err.removeprefix("error: ").rstrip("\n"))
+        # Told of the step that failed; saved is the one before.
+        self.assertIn(f"(step {summary['steps'] + 1}, h = ", err)
+        for number in ("energy_error", "momentum_error", "spin_error"):
+            self.assertIsNotNone(summary[number])
+        frames = re.findall(r'timestep="([^"]*)"', (self.folder / "runs/block/fields.pvd").read_text())
+        self.assertEqual(float(frames[-1]), summary["end_time"])
+        self.assertIn("limits the step: block element", (self.folder / "runs/block/final.svg").read_text())
+        self.assertIn("stopped by: numerical", (self.folder / "runs/block/log.txt").read_text())
+        for part in (" of body `block`", " m", " at t = ", "Likely cause: ", "Cure: "):
+            self.assertIn(part, err)
+        return err
+
+    def test_a_velocity_that_is_far_out(self):
+        err = self.stops("bodies.block.velocity.1=-100 km/s")
+        self.assertRegex(err, r"element \d+ of body `block` \(nodes \d+, \d+, \d+\) near \(.*\) m turned inside out")
+
+    def test_a_step_that_collapses(self):
+        # The end is so far away that a step which falls by a little would take for ever.
+        err = self.stops("run.end_time=4.6e5 s", "output.fields_every=1e4 s")
+        self.assertRegex(err, r"the stable limit collapsed to 5\.\S+ s .*: element \d+ of body `block`")
+
+    def test_a_load_that_runs_away(self):
+        self.write("block.toml", CASE + '[loads.wind]\nbody = "block"\nedges = { side = "top" }\npressure = "1e15 Pa"\n')
+        self.stops()
+
+
 class Report(Program):
     """The page is a line here: what is tested is what udar puts into it."""
 
@@ -458,7 +494,7 @@ class Signals(Program):
                 self.assertEqual(err, b"")
                 self.assertIn(b"interrupted", out)
         for folder in ["runs/long", "runs/long-2"]:
-            self.assertEqual(self.names(folder), WHOLE)
+            self.assertEqual(self.names(folder), WHOLE | {"checkpoint_a.bin"})
             summary = self.summary(folder)
             self.assertEqual(summary["stop_reason"], "interrupted")
             self.assertGreater(summary["steps"], 0)

@@ -81,6 +81,7 @@ TEST_CASE("rows are taken at the multiples of the interval, and at the end") {
   input.output.histories_every = 7e-6;
   WatchedRun run(input);
   HistoryRecorder recorder(run.model, folder.path);
+  recorder.begin();
   std::vector<double> times;
   run.run([&] {
     recorder.record(run.state);
@@ -109,6 +110,7 @@ TEST_CASE("a fixed step as long as the interval gives one row for each step, the
   input.output.histories_every = 0.25e-6;
   WatchedRun run(input);
   HistoryRecorder recorder(run.model, folder.path);
+  recorder.begin();
   run.run([&] { recorder.record(run.state); });
   recorder.close(run.state);
   recorder.close(run.state);
@@ -133,6 +135,7 @@ TEST_CASE("two things of one name do not write into one file") {
   const Scratch folder;
   WatchedRun run(input);
   HistoryRecorder recorder(run.model, folder.path);
+  recorder.begin();
   recorder.record(run.state);
   recorder.close(run.state);
   CHECK(read_csv(folder / "energy.csv").columns[1].name == "kinetic");

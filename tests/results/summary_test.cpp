@@ -104,6 +104,8 @@ TEST_CASE("the names that scripts rely on") {
                            "end_time",
                            "energy_error",
                            "momentum_error",
+                           "spin_error",
+                           "spin",
                            "penetration_ratio",
                            "deepest_penetration",
                            "verdict",

@@ -80,8 +80,9 @@ static_assert(sizeof(ContactBook) == 2 * sizeof(ForceBook) + sizeof(std::uint64_
 static_assert(sizeof(DeepestTouch) ==
               3 * sizeof(double) + sizeof(Vec2) + 2 * sizeof(std::uint32_t) + sizeof(std::uint64_t));
 static_assert(sizeof(PairBook) == 2 * sizeof(Index) + sizeof(ContactBook));
-static_assert(sizeof(Ledger) ==
-              force_kinds * sizeof(ForceBook) + 6 * sizeof(CompensatedSum) + 13 * sizeof(double) + 3 * sizeof(Vec2));
+static_assert(sizeof(SpinBook) == 4 * sizeof(double) + sizeof(CompensatedSum));
+static_assert(sizeof(Ledger) == force_kinds * sizeof(ForceBook) + spin_kinds * sizeof(SpinBook) +
+                                    7 * sizeof(CompensatedSum) + 17 * sizeof(double) + 3 * sizeof(Vec2));
 
 /// Momentum and spin of all bodies, with the velocity of the coming step.
 struct Totals {

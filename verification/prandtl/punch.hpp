@@ -6,7 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "wave_tools.hpp"
+#include "tools.hpp"
+#include "udar/verification/problem.hpp"
 
 namespace udar::verification {
 
@@ -74,7 +75,7 @@ struct Punch {
   }
 
   [[nodiscard]] Case input() const {
-    Case out = load("prandtl.toml");
+    Case out = load("prandtl/prandtl.toml");
     out.run.end_time = time();
     auto& mesh = std::get<RectangleMesh>(out.bodies[0].mesh);
     mesh.diagonals = diagonals;

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include "wave_tools.hpp"
+#include "tools.hpp"
 
 namespace udar::verification {
 

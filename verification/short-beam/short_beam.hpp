@@ -1,18 +1,15 @@
 #pragma once
 
-#include <doctest/doctest.h>
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "problem.hpp"
+#include "run.hpp"
+#include "udar/verification/problem.hpp"
 
 namespace udar::verification {
 
@@ -56,9 +53,7 @@ inline Changes operator+(Changes all, const std::string& change) {
   return all;
 }
 
-inline const std::string case_folder = std::string(UDAR_PROBLEM_DIR) + "/../../cases/short-beam/";
-
-inline Case short_beam(const Changes& changes) { return load_case(case_folder + "short-beam.toml", changes); }
+inline Case beam_case(const Changes& changes) { return load("cases/short-beam/short-beam.toml", changes); }
 
 /// The case's own observers, by name.
 inline const NodeObserver& node_called(const Model& model, const std::string& name) {
@@ -121,31 +116,24 @@ inline Impact strike(const Case& input) {
   return impact;
 }
 
-/// Prints a row of a table of cases/short-beam/README.md, known by its first cell; with UDAR_WRITE_DOCS=1 it replaces
-/// the row that stands there.
-inline void tell(const std::string& name, const std::string& cells) {
-  const std::string row = "| " + name + " | " + cells + " |";
-  MESSAGE(row);
-  if (std::getenv("UDAR_WRITE_DOCS") == nullptr) return;
-  const std::string page = case_folder + "README.md";
-  std::string text;
-  bool found = false;
-  std::ifstream stream(page);
-  for (std::string line; std::getline(stream, line);) {
-    const bool this_one = line.starts_with("| " + name + " |");
-    found = found || this_one;
-    text += (this_one ? row : line) + "\n";
-  }
-  std::ofstream(page) << text;
-  CHECK_MESSAGE(found, "no row of README.md begins with | " << name << " |");
+/// A number against what it should be, with a relative bound; also a row of the page of the case. `size`: what one of
+/// `unit` is in SI, whose unit is `si`.
+inline void compare(Checks& checks, const std::string& what, double computed, double expected, double bound,
+                    const std::string& unit, const std::string& si, double size = 1) {
+  checks.page_row(what, fmt::format("{:.5g} {} | {:.5g} {} | {:.2f} % | {:.3g} %", computed, unit, expected, unit,
+                                    100 * std::fabs(computed / expected - 1), 100 * bound));
+  checks.within(what, computed * size, expected * size, bound, si);
 }
 
-/// A row with a number, what it should be, and its bound; true where it keeps the bound (relative).
-inline bool holds(const std::string& what, double computed, double expected, double bound, const std::string& unit) {
-  const double error = std::fabs(computed / expected - 1);
-  tell(what, fmt::format("{:.5g} {} | {:.5g} {} | {:.2f} % | {:.3g} %", computed, unit, expected, unit, 100 * error,
-                         100 * bound));
-  return error <= bound;
-}
+// --- parts of the problem in fronts.cpp
+namespace short_beam_parts {
+void check_first_front(Checks& checks);
+void check_first_front_fine(Checks& checks);
+void check_plastic_front(Checks& checks);
+void check_tension(Checks& checks);
+void check_plateau(Checks& checks);
+void check_lateral(Checks& checks);
+void check_accelerations(Checks& checks);
+}  // namespace short_beam_parts
 
 }  // namespace udar::verification

@@ -88,6 +88,7 @@ export interface Summary {
   end_time: number;
   energy_error: number | null;
   momentum_error: number | null;
+  spin_error?: number | null;
   penetration_ratio: number | null;
   verdict: string;
   reasons: string[];

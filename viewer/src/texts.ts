@@ -29,6 +29,7 @@ export function header(run: Run): HTMLElement {
           fact("steps", s.steps.toLocaleString("en")),
           fact("energy error", percent(s.energy_error)),
           fact("momentum error", digits(s.momentum_error, 1)),
+          s.spin_error === undefined ? null : fact("spin error", digits(s.spin_error, 1)),
           fact("penetration", `${percent(s.penetration_ratio)} of an element`),
           fact("computed in", `${seconds(s.stepping_seconds)}, ${s.threads === 1 ? "1 thread" : `${s.threads} threads`}`),
         )

@@ -23,17 +23,17 @@ constexpr const char* footer = R"(Examples:
   udar converge cases/short-beam/short-beam.toml --mesh 3 --ratio 2 --step 3
   udar plot runs/short-beam corner.displacement_y --output corner.svg
   udar diff runs/coarse runs/short-beam
+  udar verify
 
 Exit codes:
-  0 done                 3 wrong case                  6 results could not be written
-  1 internal error       4 wrong mesh                  7 out of memory or threads
-  2 wrong command line   5 stopped by a numerical      9 not within what --within asks for
-                           failure                     130, 143 stopped by Ctrl-C or SIGTERM
-                                                         with everything saved)";
+  0 done                  5 stopped by a numerical failure   9 not within what --within asks for, or
+  1 internal error        6 results could not be written         a check of verify fails
+  2 wrong command line    7 out of memory or threads         129, 130, 143 stopped by SIGHUP, Ctrl-C,
+  3 wrong case, 4 mesh    8 no checkpoint to go on from          SIGTERM; `udar resume` goes on)";
 
 /// What adds each command, in the order of the help.
-constexpr std::array add_commands{add_run,    add_check, add_converge, add_sweep, add_diff,
-                                  add_report, add_plot,  add_picture,  add_movie, add_keys};
+constexpr std::array add_commands{add_run,    add_resume, add_check,   add_converge, add_sweep, add_diff,
+                                  add_report, add_plot,   add_picture, add_movie,    add_keys,  add_verify};
 
 std::vector<std::string> names_of(const CLI::App& app) {
   std::vector<std::string> names;

@@ -25,6 +25,7 @@ struct Command {
 using AddCommand = Command (*)(CLI::App& app);
 
 Command add_run(CLI::App& app);
+Command add_resume(CLI::App& app);
 Command add_check(CLI::App& app);
 Command add_report(CLI::App& app);
 Command add_keys(CLI::App& app);
@@ -34,6 +35,7 @@ Command add_movie(CLI::App& app);
 Command add_converge(CLI::App& app);
 Command add_sweep(CLI::App& app);
 Command add_diff(CLI::App& app);
+Command add_verify(CLI::App& app);
 
 /// A case and the changes made to it, as several commands take them.
 struct CaseArguments {

@@ -26,6 +26,8 @@ extern "C" void note_signal(int signal) {
 void catch_signals() {
   std::signal(SIGINT, note_signal);
   std::signal(SIGTERM, note_signal);
+  // Under `nohup` it is ignored, and stays so.
+  if (std::signal(SIGHUP, note_signal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
 }
 
 bool is_interrupted() { return caught_signal != 0; }
@@ -36,6 +38,9 @@ OnlyNewSignals::~OnlyNewSignals() {
   if (caught_signal == 0) caught_signal = before_;
 }
 
-ExitCode code_of_signal() { return caught_signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted; }
+ExitCode code_of_signal() {
+  if (caught_signal == SIGHUP) return ExitCode::hung_up;
+  return caught_signal == SIGTERM ? ExitCode::terminated : ExitCode::interrupted;
+}
 
 }  // namespace udar

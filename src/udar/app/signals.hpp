@@ -4,8 +4,8 @@
 
 namespace udar {
 
-/// From now on Ctrl-C and SIGTERM are noted instead of ending the program; a second one, more than a second later, ends
-/// it at once.
+/// From now on Ctrl-C, SIGTERM and the end of the terminal (SIGHUP) are noted instead of ending the program; a second
+/// one, more than a second later, ends it at once.
 void catch_signals();
 /// Has one come?
 bool is_interrupted();

@@ -17,7 +17,8 @@ enum class ExitCode : int {
   output = 6,
   resources = 7,
   checkpoint = 8,
-  differs = 9,  ///< results are not within the bound that was asked for
+  differs = 9,    ///< results are not within the bound that was asked for, or a check of `udar verify` fails
+  hung_up = 129,  ///< its terminal was closed
   interrupted = 130,
   terminated = 143,
 };

@@ -119,6 +119,7 @@ struct OutputCase {
   std::vector<double> fields_at;          ///< s
   std::optional<double> histories_every;  ///< s; none: a thousandth of the run
   bool report = true;                     ///< report.html at the end of `udar run`
+  std::optional<double> checkpoint = 60;  ///< s of wall time between two checkpoints; none: there are none
 };
 
 struct Case {

@@ -334,6 +334,9 @@ const Schema<OutputCase>& output_schema() {
               "\"1 us\""),
           key("report", &O::report, YesNoKind{},
               "`udar run` leaves `report.html`, one page that shows the run in a browser"),
+          key("checkpoint", &O::checkpoint, QuantityOrWordKind{positive_time, "never"},
+              "wall time from one checkpoint to the next; `udar resume` goes on from the last one", Need::optional,
+              "\"60 s\""),
       }};
   return schema;
 }

@@ -34,7 +34,8 @@ class Grid {
   [[nodiscard]] std::uint32_t column(double x) const { return place(x - low_.x, columns_); }
   [[nodiscard]] std::uint32_t row(double y) const { return place(y - low_.y, rows_); }
   [[nodiscard]] std::uint32_t place(double from_low, std::uint32_t count) const {
-    return static_cast<std::uint32_t>(std::clamp(from_low / cell_, 0.0, static_cast<double>(count - 1)));
+    const double cell = from_low / cell_;
+    return cell > 0 ? static_cast<std::uint32_t>(std::min(cell, static_cast<double>(count - 1))) : 0;
   }
 
   Vec2 low_;
@@ -56,8 +57,11 @@ double distance_squared(Vec2 p, const SegmentEnds& s) {
 Neighbours find_near(const std::vector<Vec2>& points, const std::vector<SegmentEnds>& segments, double reach) {
   Neighbours found;
   found.begin.assign(points.size() + 1, 0);
-  if (points.empty()) return found;
-  const Grid grid(bounding_box(points), reach, points.size());
+  const Box everything = bounding_box(points);
+  // Where a place or the reach is not a number, nobody can say what is near. The step finds that out, too.
+  const bool known = std::isfinite(length(everything.size()) + reach);
+  if (points.empty() || !known) return found;
+  const Grid grid(everything, reach, points.size());
 
   // Points by cell.
   std::vector<std::uint32_t> first(grid.cells() + 1);

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+
+#include "udar/base/archive.hpp"
 
 namespace udar {
 namespace {
@@ -309,6 +312,36 @@ ContactSummary ContactRecorder::summary_of(const Partners& partners) const {
     s.episodes.push_back(episode(partners, whole));
   }
   return s;
+}
+
+template <class Archive>
+void ContactRecorder::carry(Archive& archive) {
+  for (Partners& partners : obstacles_) archive(partners);
+  archive(pairs_);
+  for (BodyNow& body : last_) archive(body);
+  if constexpr (Archive::reads) {
+    for (const Partners& partners : obstacles_) check(partners);
+    for (const Partners& partners : pairs_) check(partners);
+    const auto in_order = [](const Partners& a, const Partners& b) { return bodies_of(a) < bodies_of(b); };
+    if (std::adjacent_find(pairs_.begin(), pairs_.end(), std::not_fn(in_order)) != pairs_.end()) {
+      throw OutputError("its touches of bodies are out of order");
+    }
+  }
+}
+template void ContactRecorder::carry(BytesOut&);
+template void ContactRecorder::carry(BytesIn&);
+
+/// Refuses what came from a file and does not fit the model.
+void ContactRecorder::check(const Partners& partners) const {
+  const std::size_t bodies = model_.bodies.size();
+  bool fits = partners.curve.every > 0 && partners.curve.time.size() == partners.curve.impulse.size();
+  fits = fits && partners.first <= partners.second && partners.second < bodies;
+  for (const Touch& touch : partners.touches) {
+    const auto& all = touch.touchers;
+    fits =
+        fits && !all.empty() && std::all_of(all.begin(), all.end(), [=](const Toucher& t) { return t.body < bodies; });
+  }
+  if (!fits) throw OutputError("its touches do not fit the case");
 }
 
 std::map<std::string, ContactSummary> ContactRecorder::summary() const {

@@ -19,16 +19,29 @@ class ContactRecorder {
   void record(const State& state);
   /// Episodes with gaps shorter than 2 % of the whole merged.
   [[nodiscard]] std::map<std::string, ContactSummary> summary() const;
+  /// All that it knows of the steps so far. Throws OutputError where what is read does not fit the model.
+  template <class Archive>
+  void carry(Archive& archive);
 
  private:
   /// What a body carries along.
   struct Motion {
     Vec2 momentum{};  ///< kg m/s
     double spin = 0;  ///< kg m2/s, about its centre of mass
+
+    template <class Archive>
+    void carry(Archive& archive) {
+      archive(momentum, spin);
+    }
   };
   struct BodyNow {
     Vec2 centre{};  ///< m, of mass
     Motion motion;
+
+    template <class Archive>
+    void carry(Archive& archive) {
+      archive(centre, motion);
+    }
   };
   /// A body in a touch.
   struct Toucher {
@@ -38,6 +51,11 @@ class ContactRecorder {
     Motion after;          ///< when it last did
     double pressed = 0;    ///< N s, sum of the sizes of the normal impulses on it
     Vec2 arm{};            ///< N s m, sum of the same times the way from its centre of mass
+
+    template <class Archive>
+    void carry(Archive& archive) {
+      archive(body, touches, before, after, pressed, arm);
+    }
   };
   /// An interval with force.
   struct Touch {
@@ -50,12 +68,22 @@ class ContactRecorder {
     Vec2 normal_after{};
     double peak_force = 0;          ///< N
     std::vector<Toucher> touchers;  ///< in the order of bodies
+
+    template <class Archive>
+    void carry(Archive& archive) {
+      archive(begin, end, over, impulse_before, impulse_after, normal_before, normal_after, peak_force, touchers);
+    }
   };
   /// Impulse so far at a time, thinned when there are many.
   struct Curve {
     std::vector<double> time;   ///< s
     std::vector<Vec2> impulse;  ///< N s
     std::uint64_t every = 1;    ///< steps between two points
+
+    template <class Archive>
+    void carry(Archive& archive) {
+      archive(time, impulse, every);
+    }
   };
   /// An obstacle with all bodies, or two bodies, or a body with itself.
   struct Partners {
@@ -65,7 +93,13 @@ class ContactRecorder {
     std::vector<Touch> touches;
     int merged_gaps = 0;  ///< that are no more among the touches
     Curve curve;
+
+    template <class Archive>
+    void carry(Archive& archive) {
+      archive(first, second, touches, merged_gaps, curve);
+    }
   };
+  void check(const Partners& partners) const;
   void look_at_bodies(const State& state);
   void follow(Partners& partners, const ContactBook& book, const State& state);
   void begin_touch(Partners& partners, double time);

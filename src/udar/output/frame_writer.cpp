@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "udar/base/archive.hpp"
 #include "udar/output/observer.hpp"
 
 namespace udar {
@@ -319,34 +320,69 @@ void FrameWriter::close(const State& state) {
   background_.finish();
 }
 
+std::vector<std::filesystem::path> FrameWriter::settle() {
+  background_.finish();
+  std::vector<std::filesystem::path> files;
+  for (; settled_ < index_.entries().size(); ++settled_) files.push_back(folder_ / index_.entries()[settled_].file);
+  if (!files.empty()) files.push_back(folder_ / RunFolder::fields_index);
+  return files;
+}
+
+template <class Archive>
+void FrameWriter::carry(Archive& archive) {
+  std::vector<double> times;        // s, one for each frame
+  std::vector<std::uint8_t> kinds;  // 1 where there are obstacles, too
+  for (const PvdEntry& entry : index_.entries()) {
+    if (entry.part == 0) {
+      times.push_back(entry.time);
+      kinds.push_back(0);
+    } else {
+      kinds.back() = 1;
+    }
+  }
+  archive(intervals_, times_, taken_, last_step_, times, kinds);
+  if constexpr (Archive::reads) {
+    if (kinds.size() != times.size()) throw OutputError("its list of frames is not whole");
+    for (std::size_t k = 0; k < times.size(); ++k) add_to_index(times[k], kinds[k] != 0);
+    settled_ = index_.entries().size();
+  }
+}
+template void FrameWriter::carry(BytesOut&);
+template void FrameWriter::carry(BytesIn&);
+
 void FrameWriter::take(const State& state) {
   background_.wait(room_ - 1);
-  Waiting& frame = waiting_[taken_ % room_];
+  Waiting& frame = waiting_[packed_ % room_];
   frame.time = state.clock.time.value();
   body_packer_.pack(body_frame(model_, state), frame.bodies);
   const VtuGrid obstacles = obstacle_grid(model_, state);
   frame.has_obstacles = !obstacles.points.empty();
   if (frame.has_obstacles) obstacle_packer_.pack(obstacles, frame.obstacles);
   background_.add([this, &frame] { put_on_disk(frame); });
-  if (taken_++ == 0) room_ = frames_that_wait(frame.bodies.memory());
+  if (packed_++ == 0) room_ = frames_that_wait(frame.bodies.memory());
+  ++taken_;
   last_step_ = state.clock.step;
 }
 
 void FrameWriter::put_on_disk(const Waiting& frame) {
-  std::vector<PvdEntry> entries{put_file(frame.time, 0, RunFolder::frame_name("bodies", frames_), frame.bodies)};
-  if (frame.has_obstacles) {
-    entries.push_back(put_file(frame.time, 1, RunFolder::frame_name("obstacles", frames_), frame.obstacles));
-  }
-  index_.add(entries);
-  ++frames_;
+  put_file(RunFolder::frame_name("bodies", frames_), frame.bodies);
+  if (frame.has_obstacles) put_file(RunFolder::frame_name("obstacles", frames_), frame.obstacles);
+  add_to_index(frame.time, frame.has_obstacles);
   if (std::chrono::steady_clock::now() - renewed_ >= between_renewals) renew_index();
 }
 
-PvdEntry FrameWriter::put_file(double time, int part, std::string file, const PackedVtu& frame) {
+void FrameWriter::put_file(const std::string& file, const PackedVtu& frame) {
   FileReplacement replacement(folder_ / file);
   write_vtu(replacement, frame);
   replacement.commit_unsynced();
-  return {time, part, std::move(file)};
+}
+
+/// The next frame, whose files are on the disk.
+void FrameWriter::add_to_index(double time, bool has_obstacles) {
+  std::vector<PvdEntry> entries{{time, 0, RunFolder::frame_name("bodies", frames_)}};
+  if (has_obstacles) entries.push_back({time, 1, RunFolder::frame_name("obstacles", frames_)});
+  index_.add(entries);
+  ++frames_;
 }
 
 void FrameWriter::renew_index() {

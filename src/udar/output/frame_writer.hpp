@@ -52,6 +52,13 @@ class FrameWriter {
   void record(const State& state);
   /// Takes the last frame, if it is not yet there, and waits for the disk.
   void close(const State& state);
+  /// Waits until all frames taken so far are in files, and the index names them. The files written since it was last
+  /// called.
+  std::vector<std::filesystem::path> settle();
+  /// What it knows between two steps, once settled; with BytesIn it goes on from there: frames taken since are written
+  /// over.
+  template <class Archive>
+  void carry(Archive& archive);
 
  private:
   /// A frame that waits for the disk, in memory that is used again.
@@ -63,7 +70,8 @@ class FrameWriter {
   };
   void take(const State& state);
   void put_on_disk(const Waiting& frame);
-  PvdEntry put_file(double time, int part, std::string file, const PackedVtu& frame);
+  void put_file(const std::string& file, const PackedVtu& frame);
+  void add_to_index(double time, bool has_obstacles);
   void renew_index();
 
   const Model& model_;
@@ -73,8 +81,10 @@ class FrameWriter {
   VtuPacker body_packer_;
   VtuPacker obstacle_packer_;
   std::array<Waiting, most_frames_waiting> waiting_;
-  std::size_t room_ = 1;   ///< how many of them are used
-  std::size_t taken_ = 0;  ///< frames
+  std::size_t room_ = 1;     ///< how many of them are used
+  std::size_t packed_ = 0;   ///< frames that this process took
+  std::size_t taken_ = 0;    ///< frames
+  std::size_t settled_ = 0;  ///< entries of the index
   std::uint64_t last_step_ = 0;
 
   // Of the background thread.

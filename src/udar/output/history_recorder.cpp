@@ -4,6 +4,8 @@
 #include <cmath>
 #include <exception>
 
+#include "udar/base/archive.hpp"
+
 namespace udar {
 namespace {
 
@@ -23,17 +25,42 @@ void take(HistorySummary& extremes, double value, double time) {
 }  // namespace
 
 HistoryRecorder::HistoryRecorder(const Model& model, const std::optional<std::filesystem::path>& folder)
-    : samples_(model.output.histories_every) {
+    : folder_(folder), samples_(model.output.histories_every) {
   for (Observer& observer : make_observers(model)) {
     Watched w{std::move(observer), {}, {}, {}};
     w.values.resize(w.observer.columns.size());
     w.extremes.resize(w.observer.columns.size());
-    if (folder) {
-      std::vector<Column> columns{{"time", "s"}};
-      columns.insert(columns.end(), w.observer.columns.begin(), w.observer.columns.end());
-      w.file.emplace(*folder / (w.observer.name + ".csv"), columns);
-    }
     watched_.push_back(std::move(w));
+  }
+}
+
+void HistoryRecorder::begin() {
+  if (!folder_) return;
+  for (Watched& w : watched_) {
+    std::vector<Column> columns{{"time", "s"}};
+    columns.insert(columns.end(), w.observer.columns.begin(), w.observer.columns.end());
+    w.file.emplace(path_of(w), columns);
+  }
+}
+
+template <class Archive>
+void HistoryRecorder::carry(Archive& archive) {
+  archive(samples_, last_written_step_);
+  for (Watched& w : watched_) {
+    for (HistorySummary& extremes : w.extremes) archive(extremes);
+    std::uint64_t size = w.file ? w.file->size() : 0;
+    archive(size);
+    if constexpr (Archive::reads) {
+      if (folder_) w.file.emplace(path_of(w), w.observer.columns.size() + 1, size);
+    }
+  }
+}
+template void HistoryRecorder::carry(BytesOut&);
+template void HistoryRecorder::carry(BytesIn&);
+
+void HistoryRecorder::flush() {
+  for (Watched& w : watched_) {
+    if (w.file) w.file->flush();
   }
 }
 
@@ -61,9 +88,15 @@ void HistoryRecorder::write_rows(const State& state) {
   const auto now = std::chrono::steady_clock::now();
   if (now - last_flush_ < between_flushes) return;
   last_flush_ = now;
-  for (Watched& w : watched_) {
-    if (w.file) w.file->flush();
+  flush();
+}
+
+std::vector<std::filesystem::path> HistoryRecorder::files() const {
+  std::vector<std::filesystem::path> all;
+  for (const Watched& w : watched_) {
+    if (w.file) all.push_back(path_of(w));
   }
+  return all;
 }
 
 void HistoryRecorder::close(const State& state) {

@@ -21,6 +21,11 @@ class Multiples {
     return more;
   }
 
+  template <class Archive>
+  void carry(Archive& archive) {
+    archive(done_);
+  }
+
  private:
   double interval_;
   std::uint64_t done_ = 0;

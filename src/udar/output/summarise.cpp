@@ -44,6 +44,18 @@ MomentumSummary momentum_of(const State& state) {
   return s;
 }
 
+SpinSummary spin_of(const State& state) {
+  const Ledger& l = state.ledger;
+  return {.start = l.start_spin,
+          .end = l.spin,
+          .obstacles = l.spin_book(SpinKind::obstacle).impulse.value(),
+          .gravity = l.spin_book(SpinKind::gravity).impulse.value(),
+          .loads = l.spin_book(SpinKind::load).impulse.value(),
+          .supports = l.spin_book(SpinKind::support).impulse.value(),
+          .damping = l.spin_book(SpinKind::damping).impulse.value(),
+          .error = l.spin_balance()};
+}
+
 PenetrationSummary deepest_of(const Model& model, const State& state) {
   if (state.largest_penetration == 0) return {};
   const DeepestTouch& d = state.deepest;
@@ -90,6 +102,13 @@ double momentum_at_stake(const Model& model, const State& state) {
   return std::sqrt(2 * mass * state.ledger.energy_scale()) + pushed;
 }
 
+/// The same for spin momentum about the origin, kg m2/s: all of the above at the arm of the farthest node.
+double spin_at_stake(const Model& model, const State& state) {
+  double arm = 0;
+  for (Index i = 0; i < model.node_count; ++i) arm = std::max({arm, length(model.rest[i]), length(place(state, i))});
+  return arm * momentum_at_stake(model, state);
+}
+
 /// The worst verdict so far and the reasons for it.
 struct Judgement {
   enum Verdict { good, doubtful, bad };
@@ -126,7 +145,11 @@ void judge_books(const Model& model, const State& state, const Summary& s, Judge
   if (!(state.ledger.momentum_gap <= rounding * momentum_at_stake(model, state))) {
     judgement.because(Judgement::bad, "the momentum books are {:.3g} of the momentum apart", s.momentum_error);
   }
-  if (model.run.integrator == Integrator::central_difference && !(s.identity_error <= rounding)) {
+  if (model.run.integrator != Integrator::central_difference) return;
+  if (!(state.ledger.spin_gap <= rounding * spin_at_stake(model, state))) {
+    judgement.because(Judgement::bad, "the books of the spin momentum are {:.3g} of it apart", s.spin_error);
+  }
+  if (!(s.identity_error <= rounding)) {
     judgement.because(Judgement::bad, "work on the nodes and their kinetic energy are {:.3g} of the energy apart",
                       s.identity_error);
   }
@@ -216,6 +239,8 @@ Summary summarise(const Model& model, const State& state) {
   s.identity_error = state.ledger.identity_error();
   const double scale = state.ledger.momentum_scale > 0 ? state.ledger.momentum_scale : momentum_at_stake(model, state);
   s.momentum_error = scale > 0 ? state.ledger.momentum_gap / scale : 0;
+  const double spin_scale = state.ledger.spin_scale > 0 ? state.ledger.spin_scale : spin_at_stake(model, state);
+  s.spin_error = spin_scale > 0 ? state.ledger.spin_gap / spin_scale : 0;
   s.penetration_ratio = state.largest_penetration;
   s.deepest_penetration = deepest_of(model, state);
   name_parts(model, s);
@@ -231,6 +256,7 @@ Summary summarise(const Model& model, const State& state) {
   }
   s.ledger = ledger_of(model, state);
   s.momentum = momentum_of(state);
+  s.spin = spin_of(state);
   return s;
 }
 

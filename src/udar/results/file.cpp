@@ -147,6 +147,22 @@ void FileReplacement::commit() {
   sync(names.number(), folder);
 }
 
+void sync_files(const std::vector<fs::path>& files) {
+  // A run may have thousands of histories. That many are cheaper with everything else that the disk has to write.
+  constexpr std::size_t most_one_by_one = 200;
+  for (const fs::path& path : files) {
+    const Descriptor file(retry([&] { return ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC); }));
+    if (!file.is_open()) fail("open", path, errno);
+#ifdef __linux__
+    if (files.size() > most_one_by_one) {
+      if (retry([&] { return ::syncfs(file.number()); }) < 0) fail("write", path, errno);
+      return;
+    }
+#endif
+    sync(file.number(), path);
+  }
+}
+
 void write_file(const fs::path& path, std::string_view bytes) {
   FileReplacement file(path);
   file.write(bytes);
@@ -216,7 +232,20 @@ std::string PartReader::read(std::size_t at, std::size_t count) const {
 AppendFile::AppendFile(fs::path path) : path_(std::move(path)) {
   const int flags = O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC;
   file_ = Descriptor(retry([&] { return ::open(path_.c_str(), flags, 0666); }));
-  if (!file_.is_open()) fail("create", path_, errno);
+  struct stat found {};
+  if (!file_.is_open() || ::fstat(file_.number(), &found) < 0) fail("create", path_, errno);
+  size_ = static_cast<std::uint64_t>(found.st_size);
+}
+
+AppendFile::AppendFile(fs::path path, std::uint64_t size) : path_(std::move(path)), size_(size) {
+  file_ = Descriptor(retry([&] { return ::open(path_.c_str(), O_WRONLY | O_APPEND | O_NOFOLLOW | O_CLOEXEC); }));
+  struct stat found {};
+  if (!file_.is_open() || ::fstat(file_.number(), &found) < 0) fail("open", path_, errno);
+  if (!S_ISREG(found.st_mode) || static_cast<std::uint64_t>(found.st_size) < size) {
+    throw OutputError(
+        fmt::format("cannot go on with {}: it is shorter than it was; it was changed since", path_.string()));
+  }
+  if (retry([&] { return ::ftruncate(file_.number(), static_cast<off_t>(size)); }) < 0) fail("shorten", path_, errno);
 }
 
 AppendFile::~AppendFile() {
@@ -239,6 +268,7 @@ void AppendFile::flush() {
   const std::string bytes = std::exchange(buffer_, {});
   try {
     write_all(file_.number(), bytes, path_);
+    size_ += bytes.size();
   } catch (const OutputError&) {
     file_ = Descriptor();  // a hole in the middle of a history would be worse than its end
     throw;

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace udar {
 
@@ -20,6 +22,9 @@ std::string read_file(const std::filesystem::path& path, std::size_t most_bytes)
 /// The first bytes of a file, `most` of them or fewer. Of a pipe it waits for what is written; where nobody writes it,
 /// that is nothing. Throws OutputError.
 std::string read_beginning(const std::filesystem::path& path, std::size_t most);
+
+/// Waits until what was written so far to these files is on the disk for good. Throws OutputError.
+void sync_files(const std::vector<std::filesystem::path>& files);
 
 /// An open file number, closed when it goes out of scope.
 class Descriptor {
@@ -89,6 +94,8 @@ class AppendFile {
   AppendFile() = default;
   /// Opens `path` for appending and creates it where it is missing; never follows a link.
   explicit AppendFile(std::filesystem::path path);
+  /// Opens `path` to go on behind its first `size` bytes; what follows them is cut off. Refuses a shorter file.
+  AppendFile(std::filesystem::path path, std::uint64_t size);
   AppendFile(AppendFile&&) noexcept = default;
   AppendFile& operator=(AppendFile&&) noexcept = default;
   /// Hands over what is left and ignores failures: call `close` where they matter.
@@ -101,11 +108,14 @@ class AppendFile {
   /// Flushes, waits for the disk and closes. A second call does nothing.
   void close();
   [[nodiscard]] bool is_open() const { return file_.is_open(); }
+  /// Bytes that were handed to the operating system.
+  [[nodiscard]] std::uint64_t size() const { return size_; }
 
  private:
   std::filesystem::path path_;
   Descriptor file_;
   std::string buffer_;
+  std::uint64_t size_ = 0;
 };
 
 }  // namespace udar

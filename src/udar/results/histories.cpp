@@ -33,6 +33,11 @@ Column parse_column(std::string_view text, std::string_view file) {
   return {std::string(text.substr(0, bracket)), std::string(text.substr(bracket + 2, text.size() - bracket - 3))};
 }
 
+std::size_t room_for(std::size_t columns) {
+  constexpr std::size_t longest_number = 25;  // -2.2250738585072014e-308 and a comma
+  return columns * longest_number;
+}
+
 double parse_number(std::string_view text, std::string_view file, std::size_t line) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -45,9 +50,7 @@ double parse_number(std::string_view text, std::string_view file, std::size_t li
 }  // namespace
 
 HistoryWriter::HistoryWriter(const std::filesystem::path& path, const std::vector<Column>& columns)
-    : file_(path), column_count_(columns.size()) {
-  constexpr std::size_t longest_number = 25;  // -2.2250738585072014e-308 and a comma
-  row_.resize(columns.size() * longest_number);
+    : file_(path), row_(room_for(columns.size()), '\0'), column_count_(columns.size()) {
   std::string header;
   for (const Column& column : columns) {
     if (!header.empty()) header += ',';
@@ -56,6 +59,9 @@ HistoryWriter::HistoryWriter(const std::filesystem::path& path, const std::vecto
   }
   file_.write(header + '\n');
 }
+
+HistoryWriter::HistoryWriter(const std::filesystem::path& path, std::size_t columns, std::uint64_t size)
+    : file_(path, size), row_(room_for(columns), '\0'), column_count_(columns) {}
 
 void HistoryWriter::write_row(std::span<const double> values) {
   assert(values.size() == column_count_);

@@ -23,11 +23,15 @@ struct Column {
 class HistoryWriter {
  public:
   HistoryWriter(const std::filesystem::path& path, const std::vector<Column>& columns);
+  /// Goes on behind the first `size` bytes of a file that has its heading.
+  HistoryWriter(const std::filesystem::path& path, std::size_t columns, std::uint64_t size);
   /// One value for each column.
   void write_row(std::span<const double> values);
   /// Makes all rows so far visible to other programs.
   void flush() { file_.flush(); }
   void close() { file_.close(); }
+  /// Bytes that other programs see.
+  [[nodiscard]] std::uint64_t size() const { return file_.size(); }
 
  private:
   AppendFile file_;

@@ -15,9 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array top_files{RunFolder::given_case,    RunFolder::resolved_case, RunFolder::version,
-                               RunFolder::summary,       RunFolder::log,           RunFolder::setup_picture,
-                               RunFolder::final_picture, RunFolder::report,        RunFolder::fields_index};
+constexpr std::array top_files{RunFolder::given_case,     RunFolder::resolved_case, RunFolder::version,
+                               RunFolder::summary,        RunFolder::log,           RunFolder::setup_picture,
+                               RunFolder::final_picture,  RunFolder::report,        RunFolder::fields_index,
+                               RunFolder::checkpoints[0], RunFolder::checkpoints[1]};
 
 /// `name` without the ending that a killed `write_file` leaves.
 std::string_view without_temporary(std::string_view name) {
@@ -103,16 +104,28 @@ std::string RunFolder::frame_name(std::string_view part, int frame) {
 RunFolder create_run_folder(const fs::path& path, bool force) {
   refuse_link(path);
   check_free(path, force);
+  make_folder(path);
+  auto lock = std::make_shared<const FolderLock>(path);
   refuse_link(path / RunFolder::fields);
   refuse_link(path / RunFolder::histories);
   remove_own(path, is_own_top_file);
   remove_own(path / RunFolder::fields, is_own_field);
   remove_own(path / RunFolder::histories, is_own_history);
-  make_folder(path);
   write_file(path / RunFolder::marker, "This folder was made by udar; `udar run --force` may replace its results.\n");
   make_folder(path / RunFolder::fields);
   make_folder(path / RunFolder::histories);
-  return {path};
+  return {path, std::move(lock)};
+}
+
+RunFolder reopen_run_folder(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(fs::symlink_status(path / RunFolder::marker, error))) {
+    throw UserError(ExitCode::usage, fmt::format("`{}` is not the folder of a run", path.string()),
+                    "name a folder that `udar run` has made, such as runs/short-beam");
+  }
+  refuse_link(path / RunFolder::fields);
+  refuse_link(path / RunFolder::histories);
+  return {path, std::make_shared<const FolderLock>(path)};
 }
 
 std::string safe_name(std::string_view text) {

@@ -83,6 +83,18 @@ void for_each_member(T& s, Visit visit) {
   visit("error", s.error);
 }
 
+template <Is<SpinSummary> T, class Visit>
+void for_each_member(T& s, Visit visit) {
+  visit("start", s.start);
+  visit("end", s.end);
+  visit("obstacles", s.obstacles);
+  visit("gravity", s.gravity);
+  visit("loads", s.loads);
+  visit("supports", s.supports);
+  visit("damping", s.damping);
+  visit("error", s.error);
+}
+
 template <Is<PenetrationSummary> T, class Visit>
 void for_each_member(T& s, Visit visit) {
   visit("depth", s.depth);
@@ -135,6 +147,7 @@ void for_each_member(T& s, Visit visit) {
   visit("nodes", s.nodes);
   visit("steps", s.steps);
   visit("threads", s.threads);
+  visit("resumed", s.resumed);
   visit("wall_seconds", s.wall_seconds);
   visit("stepping_seconds", s.stepping_seconds);
   visit("element_steps_per_second", s.element_steps_per_second);
@@ -142,6 +155,7 @@ void for_each_member(T& s, Visit visit) {
   visit("energy_error", s.energy_error);
   visit("identity_error", s.identity_error);
   visit("momentum_error", s.momentum_error);
+  visit("spin_error", s.spin_error);
   visit("penetration_ratio", s.penetration_ratio);
   visit("deepest_penetration", s.deepest_penetration);
   visit("verdict", s.verdict);
@@ -155,6 +169,7 @@ void for_each_member(T& s, Visit visit) {
   visit("time_step", s.time_step);
   visit("ledger", s.ledger);
   visit("momentum", s.momentum);
+  visit("spin", s.spin);
   visit("histories", s.histories);
   visit("contacts", s.contacts);
 }

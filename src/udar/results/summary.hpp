@@ -24,6 +24,11 @@ struct HistorySummary {
   double last = no_number;
   double time_of_min = no_number;  ///< s
   double time_of_max = no_number;  ///< s
+
+  template <class Archive>
+  void carry(Archive& archive) {
+    archive(min, max, max_abs, last, time_of_min, time_of_max);
+  }
 };
 
 /// One interval with contact force between an obstacle and the bodies, or between two bodies. What belongs to the place
@@ -90,6 +95,18 @@ struct MomentumSummary {
   Vec2 error{};
 };
 
+/// The balance of the spin momentum about the origin at the end, N m s: start + moments = end + error.
+struct SpinSummary {
+  double start = 0;
+  double end = 0;
+  double obstacles = 0;  ///< moment of contact and friction, over time
+  double gravity = 0;
+  double loads = 0;
+  double supports = 0;
+  double damping = 0;
+  double error = 0;
+};
+
 /// The touch in which a node sank deepest, compared with the boundary at it: Summary::penetration_ratio.
 struct PenetrationSummary {
   double depth = no_number;          ///< m
@@ -140,6 +157,7 @@ struct Summary {
   long long nodes = 0;
   long long steps = 0;
   int threads = 1;
+  int resumed = 0;              ///< how often the run was stopped and gone on with; times below are of all its parts
   double wall_seconds = 0;      ///< of the whole run, output included
   double stepping_seconds = 0;  ///< of these, from the first step to the last
   double element_steps_per_second = 0;
@@ -147,6 +165,7 @@ struct Summary {
   double energy_error = no_number;       ///< part of the energy, largest over time
   double identity_error = no_number;     ///< the same of the nodes' work and kinetic energy: rounding only
   double momentum_error = no_number;     ///< part of the momentum, largest over time
+  double spin_error = no_number;         ///< part of the spin momentum about the origin, largest over time
   double penetration_ratio = no_number;  ///< deepest penetration over element size
   PenetrationSummary deepest_penetration;
   std::string verdict;                              ///< good, doubtful or bad
@@ -160,6 +179,7 @@ struct Summary {
   TimeStepSummary time_step;
   LedgerSummary ledger;
   MomentumSummary momentum;
+  SpinSummary spin;
   std::map<std::string, std::map<std::string, HistorySummary>> histories;  ///< by observer, then quantity
   /// By obstacle, and by pair of bodies, "hammer/anvil": then forces on the first of them, velocities against the
   /// second.

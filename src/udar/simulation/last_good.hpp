@@ -13,7 +13,7 @@ class LastGood {
   /// To be called before every step.
   void keep(const State& state) {
     constexpr std::uint64_t steps_between_copies = 256;
-    if (state.clock.step % steps_between_copies == 0) copy_ = state;
+    if (state.clock.step % steps_between_copies == 0 || copy_.nodes.empty()) copy_ = state;
   }
   /// The state that the step to number `failed` began with.
   [[nodiscard]] State before(std::uint64_t failed, Workspace& work) const {

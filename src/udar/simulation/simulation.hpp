@@ -14,6 +14,9 @@
 
 namespace udar {
 
+struct Checkpoint;
+struct Stop;
+
 /// How a case is run. Nothing here changes a result.
 struct RunOptions {
   std::optional<std::filesystem::path> folder;  ///< where results go; none: no files
@@ -23,10 +26,9 @@ struct RunOptions {
   std::string case_text;                        ///< the case file as given, kept in the run folder
   std::string command;                          ///< how the run was asked for, for the log
   std::function<bool()> interrupted;            ///< asked before every step; true: stop with everything saved
+  /// Goes on from here instead of beginning: a checkpoint of the same case, whose run folder is `folder`.
+  const Checkpoint* resume = nullptr;
 };
-
-/// Why a run stopped.
-struct Stop;
 
 /// A case and its run:
 ///
@@ -37,7 +39,7 @@ class Simulation {
   /// Checks the case and builds its model. Throws UserError.
   explicit Simulation(Case input);
 
-  /// Calls `watch` at t_0 and after every step of `run`.
+  /// Calls `watch` at t_0, or where a run is taken up again, and after every step of `run`.
   void observe(std::function<void(const Model&, const State&)> watch);
 
   /// Runs to the end time, or to where it cannot go on: then the summary says why (stop_reason, reasons), and
@@ -51,8 +53,11 @@ class Simulation {
   [[nodiscard]] const State& state() const { return state_; }
 
  private:
-  /// All steps, with a look at t_0 and after each.
-  void compute(const RunOptions& options, Workspace& work, const std::function<void()>& look, Stop& stop);
+  /// All steps, with a look after each.
+  void compute(const RunOptions& options, Workspace& work, Stop& stop, const std::function<void()>& look);
+  void watch() const {
+    for (const auto& watch : watchers_) watch(model_, state_);
+  }
 
   Case case_;
   Model model_;
@@ -65,5 +70,7 @@ int threads_for(std::size_t elements);
 
 /// "udar 0.1.0 (g++ 12.2.0)".
 std::string version_text();
+/// "0.1.0".
+std::string version_number();
 
 }  // namespace udar

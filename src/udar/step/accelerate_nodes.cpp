@@ -28,7 +28,9 @@ void hold(const Model& model, State& state, const HeldNode& held, NodeSums& sums
     const Vec2 more = mass * (now - v);
     sums.held_momentum += more;
     sums.momentum += more;
-    sums.spin += cross({record.x, record.y}, more);
+    const double more_spin = cross({record.x, record.y}, more);
+    sums.held_spin += more_spin;
+    sums.spin += more_spin;
     sums.kinetic += mass * (dot(now, now) - dot(v, v));
     v = now;
   }

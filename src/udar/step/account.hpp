@@ -9,6 +9,7 @@ struct Account {
   Vec2 force{};
   double power_before = 0;
   double power_after = 0;
+  double moment = 0;  ///< about the origin; only of forces from outside the bodies
 
   void add(Vec2 f, Vec2 before, Vec2 after) {
     force += f;
@@ -19,6 +20,7 @@ struct Account {
     force += other.force;
     power_before += other.power_before;
     power_after += other.power_after;
+    moment += other.moment;
     return *this;
   }
 };

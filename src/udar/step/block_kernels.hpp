@@ -14,9 +14,10 @@ namespace udar {
 struct ElementSums {
   double stress_work = 0;   ///< J
   double plastic_work = 0;  ///< J
-  /// m2, twice the smallest area in the middle or at the end of the step, where an element may have turned over; else
-  /// infinite.
+  /// m2, twice the smallest area in the middle of the step, or at its end where an element may have turned over since.
   double smallest_area = 0;
+  double unseen =
+      0;  ///< sum of plastic strains and stresses across the plane, which make no force: is any not a number?
 };
 
 /// One block of elements with the arrays it reads and writes, from its first element on.
@@ -57,7 +58,9 @@ struct NodeSums {
   Vec2 carried{};             ///< kg m/s, sum m v+
   Vec2 momentum{};            ///< kg m/s, sum m v_n, for an Adams rule
   Vec2 damping_force{};       ///< N
+  double damping_moment = 0;  ///< N m, about the origin
   Vec2 held_momentum{};       ///< kg m/s, what holding nodes changed in the momentum of an Adams rule
+  double held_spin = 0;       ///< kg m2/s, and in its spin
 };
 
 /// One block of nodes with the arrays it reads and writes, from its first node on.

@@ -61,7 +61,8 @@ double next_threshold(const State& state) {
 }
 
 /// What the case asks for: a fixed step, as far as it is stable or the case insists, or a part of the stable limit.
-double wanted_step(const Model& model, Clock& clock) {
+double wanted_step(const Model& model, State& state) {
+  Clock& clock = state.clock;
   // Where all bodies are rigid, touches are the only thing that happens: forty steps or more for each.
   constexpr double part_for_touches = 0.05;
   const double part = model.element_blocks.empty() ? part_for_touches : 1;
@@ -69,7 +70,7 @@ double wanted_step(const Model& model, Clock& clock) {
   if (!model.run.time_step) return safe_step;
   const double step = *model.run.time_step;
   if (step <= clock.limit.size || rule_of(model.run.integrator).stable_limit == 0) return step;
-  if (model.run.when_unstable == WhenUnstable::stop) fail_unstable(model, clock);
+  if (model.run.when_unstable == WhenUnstable::stop) fail_unstable(model, state);
   if (clock.shortened++ == 0) {
     clock.first_shortened = clock.time.value();
     clock.first_shortened_element = clock.limit.element;
@@ -145,7 +146,7 @@ void choose_time_step(const Model& model, State& state, const Workspace& work) {
     clock.tightest = clock.limit;
     clock.tightest_time = clock.time.value();
   }
-  const double wanted = wanted_step(model, clock);
+  const double wanted = wanted_step(model, state);
   if (wanted < shortest_step * model.run.end_time) fail_collapsing_step(model, state);
   const double left = model.run.end_time - clock.time.value();
   if (clock.step == 0) {

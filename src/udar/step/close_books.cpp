@@ -46,6 +46,17 @@ class Booking {
     book.force = account.force;
   }
 
+  void enter(double moment, SpinBook& book) const {
+    double impulse = span_ * moment;
+    if (rule_.weights != nullptr) {
+      impulse = done_.implicit * moment;
+      for (std::size_t k = 0; k < 3; ++k) impulse += done_.velocity[k] * book.past[k];
+      book.past = {moment, book.past[0], book.past[1]};
+    }
+    book.impulse.add(impulse);
+    book.moment = moment;
+  }
+
  private:
   const State& state_;
   const IntegratorRule& rule_;
@@ -101,6 +112,8 @@ void enter_corners(const Model& model, const State& state, const Booking& bookin
       all.add(forces, before, after);
       of_obstacle.pressing.add(forces.normal + forces.damping, before, after);
       of_obstacle.total.add(forces.total(), before, after);
+      of_obstacle.damping += forces.damping;
+      of_obstacle.total.moment += cross(place(state, model.contact_nodes[point]), forces.total());
     });
   }
 }
@@ -120,10 +133,16 @@ Account sum_ties(const Model& model, const BodyContact& contact, const Booking& 
   return account;
 }
 
-/// Contact forces, obstacle by obstacle and touch by touch; returns the account of the moving obstacles' own work.
-Account enter_contacts(const Model& model, State& state, Workspace& work, const Booking& booking) {
+/// What moving obstacles do themselves, W; and the moment of all obstacles' forces on the bodies.
+struct ObstacleAccounts {
+  Account work;
+  Account damping;  ///< of `work` what goes into dashpots
+};
+
+/// Contact forces, obstacle by obstacle and touch by touch; returns the accounts of the obstacles' own work.
+ObstacleAccounts enter_contacts(const Model& model, State& state, Workspace& work, const Booking& booking) {
   ContactAccounts all;
-  Account obstacle_work;
+  ObstacleAccounts obstacles;
   const std::size_t count = model.contact_nodes.size();
   const std::size_t blocks = model.node_blocks.size();
   std::vector<PairForces>& corners = work.bodies.corner_forces;
@@ -132,6 +151,7 @@ Account enter_contacts(const Model& model, State& state, Workspace& work, const 
     const Vec2 velocity = model.obstacles[o].velocity;
     Account total = corners[o].total;
     Account pressing = corners[o].pressing;
+    Vec2 damping = corners[o].damping;
     for (std::size_t b = 0; b < blocks; ++b) {
       if (work.contact_sums[o * blocks + b].touching == 0) continue;
       for (std::size_t c = work.outer_nodes[b].contact_begin; c < work.outer_nodes[b].contact_end; ++c) {
@@ -142,28 +162,36 @@ Account enter_contacts(const Model& model, State& state, Workspace& work, const 
         all.add({springs.normal_force, springs.friction_force, springs.damping_force}, before, after);
         const Vec2 pressing_force = springs.normal_force + springs.damping_force;
         pressing.add(pressing_force, before, after);
+        damping += springs.damping_force;
         total.add(pressing_force + springs.friction_force, before, after);
+        total.moment += cross(place(state, model.contact_nodes[c]), pressing_force + springs.friction_force);
       }
     }
     booking.enter(total, state.obstacles[o].total);
     booking.enter(pressing, state.obstacles[o].normal);
-    obstacle_work.add(total.force, velocity, velocity);
+    obstacles.work.add(total.force, velocity, velocity);
+    obstacles.work.moment += total.moment;
+    obstacles.damping.add(damping, velocity, velocity);
   }
   enter_touches(model, state, work, booking, all);
   booking.enter(all.normal, state.ledger.book(ForceKind::contact));
   booking.enter(all.friction, state.ledger.book(ForceKind::friction));
   booking.enter(all.damping, state.ledger.book(ForceKind::contact_damping));
   booking.enter(sum_ties(model, work.bodies, booking), state.ledger.book(ForceKind::tie));
-  return obstacle_work;
+  return obstacles;
 }
 
 /// Forces that are kept node by node, of loads or of supports.
 template <class Part>
-Account sum_forces(const std::vector<Part>& parts, const std::vector<Vec2>& forces, const Booking& booking) {
+Account sum_forces(const std::vector<Part>& parts, const State& state, const std::vector<Vec2>& forces,
+                   const Booking& booking) {
   Account account;
   std::size_t k = 0;
   for (const Part& part : parts) {
-    for (const Index node : part.nodes) account.add(forces[k++], booking.before(node), booking.after(node));
+    for (const Index node : part.nodes) {
+      account.add(forces[k], booking.before(node), booking.after(node));
+      account.moment += cross(place(state, node), forces[k++]);
+    }
   }
   return account;
 }
@@ -172,10 +200,13 @@ Account sum_forces(const std::vector<Part>& parts, const std::vector<Vec2>& forc
 void enter_elements_and_springs(const Model& model, State& state, Workspace& work) {
   double stress_work = 0;
   double plastic_work = 0;
+  double unseen = 0;
   for (const ElementSums& sums : work.element_sums) {
     stress_work += sums.stress_work;
     plastic_work += sums.plastic_work;
+    unseen += sums.unseen;
   }
+  if (!std::isfinite(unseen)) fail_not_finite(model, state);
   Ledger& ledger = state.ledger;
   ledger.stress_work.add(stress_work);
   ledger.plastic_work.add(plastic_work);
@@ -229,10 +260,14 @@ NodeSums total_of_nodes(const Workspace& work) {
     total.damping_before += sums.damping_before;
     total.damping_after += sums.damping_after;
     total.damping_force += sums.damping_force;
+    total.damping_moment += sums.damping_moment;
+    total.position += sums.position;
+    total.spin += sums.spin;
     total.spin_after += sums.spin_after;
     total.carried += sums.carried;
     total.momentum += sums.momentum;
     total.held_momentum += sums.held_momentum;
+    total.held_spin += sums.held_spin;
   }
   return total;
 }
@@ -252,6 +287,7 @@ void open_books(const Model& model, State& state) {
     for (Index i = body.node_begin; i < body.node_end; ++i) {
       const Vec2 v{state.nodes[i].vx, state.nodes[i].vy};
       ledger.momentum_scale += model.mass[i] * length(v);
+      ledger.spin_scale += model.mass[i] * length(place(state, i)) * length(v);
       if (body.rigid) continue;
       ledger.start_kinetic += 0.5 * model.mass[i] * dot(v, v);
       ledger.start_momentum += model.mass[i] * v;
@@ -267,6 +303,7 @@ void open_books(const Model& model, State& state) {
     state.body_momentum[rigid.body] = rigid.mass * v.linear;
     state.body_spin[rigid.body] = rigid.mass * cross(rigid.centre, v.linear) + rigid.inertia * v.angular;
   }
+  for (const double spin : state.body_spin) ledger.start_spin += spin;
   ledger.half_step_kinetic = ledger.start_kinetic;
   ledger.carried = ledger.start_momentum;
 }
@@ -277,7 +314,8 @@ void close_books(const Model& model, State& state, Workspace& work) {
   const Booking booking(model, state);
   const NodeSums nodes = total_of_nodes(work);
   sum_bodies(model, state, work);
-  if (!std::isfinite(nodes.kinetic_after)) fail_not_finite(model, state);
+  // Forces on the nodes of rigid bodies show in their power only.
+  if (!std::isfinite(nodes.kinetic_after + nodes.internal_power)) fail_not_finite(model, state);
 
   const bool half_steps = rule_of(model.run.integrator).weights == nullptr;
   ledger.kinetic_energy = 0.5 * nodes.kinetic;
@@ -291,26 +329,35 @@ void close_books(const Model& model, State& state, Workspace& work) {
   ledger.momentum = half_steps ? nodes.carried : nodes.momentum;
   ledger.book(ForceKind::support).impulse_x.add(nodes.held_momentum.x);
   ledger.book(ForceKind::support).impulse_y.add(nodes.held_momentum.y);
-  ledger.spin = nodes.spin_after;
+  ledger.spin = half_steps ? nodes.spin_after : nodes.spin;
+  ledger.spin_book(SpinKind::support).impulse.add(nodes.held_spin);
 
   const Vec2 weight = total_mass(model) * model.run.gravity;
-  const Account gravity{weight, dot(model.run.gravity, ledger.carried), dot(model.run.gravity, nodes.carried)};
+  const Account gravity{weight, dot(model.run.gravity, ledger.carried), dot(model.run.gravity, nodes.carried),
+                        cross(nodes.position, model.run.gravity)};
   ledger.carried = nodes.carried;
-  const Account loads = sum_forces(model.loads, state.load_forces, booking);
-  const Account supports = sum_forces(model.supports, state.support_forces, booking);
-  const Account obstacles = enter_contacts(model, state, work, booking);
+  const Account loads = sum_forces(model.loads, state, state.load_forces, booking);
+  const Account supports = sum_forces(model.supports, state, state.support_forces, booking);
+  const ObstacleAccounts obstacles = enter_contacts(model, state, work, booking);
   booking.enter(gravity, ledger.book(ForceKind::gravity));
   booking.enter(loads, ledger.book(ForceKind::load));
   booking.enter(supports, ledger.book(ForceKind::support));
   booking.enter({nodes.damping_force, nodes.damping_before, nodes.damping_after}, ledger.book(ForceKind::damping));
+  booking.enter(obstacles.work.moment, ledger.spin_book(SpinKind::obstacle));
+  booking.enter(gravity.moment, ledger.spin_book(SpinKind::gravity));
+  booking.enter(loads.moment, ledger.spin_book(SpinKind::load));
+  booking.enter(supports.moment, ledger.spin_book(SpinKind::support));
+  booking.enter(nodes.damping_moment, ledger.spin_book(SpinKind::damping));
   ledger.book(ForceKind::internal).work.add(0.5 * velocity_span(state.clock) * nodes.internal_power);
 
-  ledger.obstacle_work_now = ledger.obstacle_work.value() + booking.work_until_now(obstacles);
-  ledger.obstacle_work.add(booking.work(obstacles));
+  ledger.obstacle_work_now = ledger.obstacle_work.value() + booking.work_until_now(obstacles.work);
+  ledger.obstacle_work.add(booking.work(obstacles.work));
+  ledger.obstacle_damping_now = ledger.obstacle_damping_work.value() + booking.work_until_now(obstacles.damping);
+  ledger.obstacle_damping_work.add(booking.work(obstacles.damping));
   Account external = gravity;
   external += loads;
   external += supports;
-  external += obstacles;
+  external += obstacles.work;
   ledger.external_throughput.add(std::fabs(booking.work(external)));
 
   ledger.energy_gap = std::max(ledger.energy_gap, std::fabs(ledger.energy_balance()));
@@ -323,6 +370,7 @@ void close_books(const Model& model, State& state, Workspace& work) {
   ledger.identity_gap =
       std::max(ledger.identity_gap, std::fabs(ledger.half_step_kinetic - ledger.start_kinetic - node_work));
   ledger.momentum_gap = std::max(ledger.momentum_gap, length(ledger.momentum - ledger.start_momentum - impulses));
+  ledger.spin_gap = std::max(ledger.spin_gap, std::fabs(ledger.spin_balance()));
 
   // In the very first steps there may be hardly any energy to compare with: the end of the run judges them.
   constexpr std::uint64_t first_judged = 100;

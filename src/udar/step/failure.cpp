@@ -32,75 +32,154 @@ double smaller_area(const Model& model, const State& state, Index element) {
   return std::min(at_end, twice_area(middle(corners[0]), middle(corners[1]), middle(corners[2])));
 }
 
+std::string node_text(const Model& model, Index node) {
+  return fmt::format("node {} of body `{}` (undeformed at ({:.5g}, {:.5g}) m)", model.node_numbers[node],
+                     model.body_of_node(node).name, model.rest[node].x, model.rest[node].y);
+}
+
+bool is_finite(Vec2 v) { return std::isfinite(v.x) && std::isfinite(v.y); }
+
+/// Throws where one of `begin` .. `end` - 1 is bad; `describe` says what is wrong with it.
+template <class Bad, class Describe>
+void refuse_any(Index begin, Index end, const Clock& clock, Bad&& bad, Describe&& describe) {
+  for (Index i = begin; i < end; ++i) {
+    if (!bad(i)) continue;
+    throw NumericalError(fmt::format(
+        "{} {}.\n"
+        "  Likely cause: the motion grew without bound, since the step is above the stable limit or a value of the "
+        "case "
+        "is far out (its unit?).\n"
+        "  Cure: time_step = \"auto\" with a smaller step_safety, 0.5; udar check shows the case in other words.",
+        describe(i), when(clock)));
+  }
+}
+
+/// Throws where anything is not a number. In the order of cause and effect: within a step what is none in the velocity
+/// of a node spreads to its place, then to the stress of its elements, and from a stress to the plastic strain there
+/// and to the velocities of the nodes.
+void refuse_not_finite(const Model& model, const State& state) {
+  const auto rigid_text = [&](Index k, const char* what) {
+    return fmt::format("body `{}`, which moves as one piece, has a {} that is not a number",
+                       model.bodies[model.rigid_bodies[k].body].name, what);
+  };
+  const auto rigid_count = static_cast<Index>(state.rigid.size());
+  const Clock& clock = state.clock;
+  refuse_any(
+      0, rigid_count, clock,
+      [&](Index k) { return !is_finite(state.rigid[k].place) || !std::isfinite(state.rigid[k].angle); },
+      [&](Index k) { return rigid_text(k, "place"); });
+  refuse_any(
+      0, model.node_count, clock, [&](Index i) { return !is_finite(place(state, i)); },
+      [&](Index i) { return node_text(model, i) + " has a place or velocity that is not a number"; });
+  for (const Body& body : model.bodies) {
+    refuse_any(
+        body.element_begin, body.element_end, clock,
+        [&](Index e) {
+          return !std::isfinite(state.stress_xx[e]) || !std::isfinite(state.stress_yy[e]) ||
+                 !std::isfinite(state.stress_xy[e]) || !std::isfinite(state.stress_zz[e]);
+        },
+        [&](Index e) { return element_text(model, state, e) + " has a stress that is not a number"; });
+    refuse_any(
+        body.element_begin, body.element_end, clock, [&](Index e) { return !std::isfinite(state.plastic_strain[e]); },
+        [&](Index e) { return element_text(model, state, e) + " has a plastic strain that is not a number"; });
+  }
+  refuse_any(
+      0, model.node_count, clock,
+      [&](Index i) {
+        return !is_finite({state.nodes[i].vx, state.nodes[i].vy});
+      },
+      [&](Index i) { return node_text(model, i) + " has a velocity that is not a number"; });
+  refuse_any(
+      0, rigid_count, clock,
+      [&](Index k) {
+        return !is_finite(state.rigid[k].velocity.linear) || !std::isfinite(state.rigid[k].velocity.angular);
+      },
+      [&](Index k) { return rigid_text(k, "velocity"); });
+}
+
+/// An element and twice its smallest area in the middle of the step and at its end, m2.
+struct FlatElement {
+  Index element = 0;
+  double twice_area = std::numeric_limits<double>::infinity();
+};
+
+/// The flattest one of those in blocks where one may have turned over.
+FlatElement flattest_element(const Model& model, const State& state, const Workspace& work) {
+  FlatElement found;
+  for (std::size_t b = 0; b < model.element_blocks.size(); ++b) {
+    if (work.element_sums[b].smallest_area > 0) continue;
+    const ElementBlock& block = model.element_blocks[b];
+    for (Index e = block.begin; e < std::min(block.end, model.bodies[block.body].element_end); ++e) {
+      const double area = smaller_area(model, state, e);
+      if (area < found.twice_area) found = {e, area};
+    }
+  }
+  return found;
+}
+
 }  // namespace
 
 void refuse_inverted(const Model& model, const State& state, const Workspace& work) {
-  const auto flat = [](const ElementSums& sums) { return !(sums.smallest_area > 0); };
   const auto& sums = work.element_sums;
-  const auto found = std::find_if(sums.begin(), sums.end(), flat);
-  if (found == sums.end()) return;
-
-  const ElementBlock& block = model.element_blocks[static_cast<std::size_t>(found - sums.begin())];
-  Index worst = block.begin;
-  double smallest = std::numeric_limits<double>::infinity();
-  for (Index e = block.begin; e < std::min(block.end, model.bodies[block.body].element_end); ++e) {
-    const double area = smaller_area(model, state, e);
-    if (area < smallest) {
-      smallest = area;
-      worst = e;
-    }
-  }
+  const bool none = std::all_of(sums.begin(), sums.end(), [](const ElementSums& s) { return s.smallest_area > 0; });
+  if (none) return;
+  // The area of an element with a place that is not a number is none, either. An element that turned over may well have
+  // a stress that is none.
+  const FlatElement flattest = flattest_element(model, state, work);
+  if (!std::isfinite(flattest.twice_area) || flattest.twice_area > 0) refuse_not_finite(model, state);
   throw NumericalError(fmt::format(
       "{} turned inside out {}.\n"
       "  Likely cause: a corner of an obstacle or a load crushes single elements, or the step was above the stable "
       "limit.\n"
-      "  Cure: a coarser mesh there or a rounder obstacle; softer contact springs; time_step = \"auto\".",
-      element_text(model, state, worst), when(state.clock)));
+      "  Cure: a coarser mesh there or a rounder obstacle; softer contact springs; time_step = \"auto\" with a smaller "
+      "step_safety, 0.5.",
+      element_text(model, state, flattest.element), when(state.clock)));
 }
 
 void fail_not_finite(const Model& model, const State& state) {
-  for (Index i = 0; i < model.node_count; ++i) {
-    const NodeRecord& r = state.nodes[i];
-    if (std::isfinite(r.x) && std::isfinite(r.y) && std::isfinite(r.vx) && std::isfinite(r.vy)) continue;
-    throw NumericalError(fmt::format(
-        "node {} of body `{}` (undeformed at ({:.5g}, {:.5g}) m) has a velocity that is not a number {}.\n"
-        "  Likely cause: the step is above the stable limit and the motion grew without bound.\n"
-        "  Cure: time_step = \"auto\", or a smaller one.",
-        model.node_numbers[i], model.body_of_node(i).name, model.rest[i].x, model.rest[i].y, when(state.clock)));
+  refuse_not_finite(model, state);
+  Index fastest = 0;
+  const auto speed = [&](Index i) { return std::hypot(state.nodes[i].vx, state.nodes[i].vy); };
+  for (Index i = 1; i < model.node_count; ++i) {
+    if (speed(i) > speed(fastest)) fastest = i;
   }
-  throw NumericalError(fmt::format("the energy is not a number any more {}", when(state.clock)));
+  throw NumericalError(
+      fmt::format("the energy is not a number any more {}; {} moves at {:.3g} m/s.\n"
+                  "  Likely cause: a velocity, load or stiffness of the case is far out (its unit?).\n"
+                  "  Cure: udar check shows the case in other words.",
+                  when(state.clock), node_text(model, fastest), speed(fastest)));
 }
 
-void fail_unstable(const Model& model, const Clock& clock) {
+void fail_unstable(const Model& model, const State& state) {
+  const Clock& clock = state.clock;
   throw NumericalError(fmt::format(
-      "the stable limit fell to {:.4g} s, below the fixed step {:.4g} s, at t = {:.6g} s (step {}): element {} of body "
-      "`{}`.\n"
+      "the stable limit fell to {:.4g} s, below the fixed step {:.4g} s, {}: {}.\n"
       "  Likely cause: the element is being crushed.\n"
       "  Cure: time_step = \"auto\", or when_unstable = \"shorten\".",
-      clock.limit.size, *model.run.time_step, clock.time.value(), clock.step,
-      model.element_numbers[clock.limit.element], model.body_of_element(clock.limit.element).name));
+      clock.limit.size, *model.run.time_step, when(clock), element_text(model, state, clock.limit.element)));
 }
 
 void fail_collapsing_step(const Model& model, const State& state) {
+  refuse_not_finite(model, state);
   throw NumericalError(
       fmt::format("the stable limit collapsed to {:.3g} s {}: {}.\n"
                   "  Likely cause: the element is crushed flat.\n"
-                  "  Cure: a coarser mesh there, or a rounder obstacle.",
+                  "  Cure: a coarser mesh there, or a rounder obstacle; softer contact springs.",
                   state.clock.limit.size, when(state.clock), element_text(model, state, state.clock.limit.element)));
 }
 
 void fail_energy(const Model& model, const State& state) {
   const Ledger& ledger = state.ledger;
-  throw NumericalError(
-      fmt::format("the energy books are {:.3g} % apart {}; the case allows {:.3g} %.\n"
-                  "  Kinetic {:.6g} J, elastic {:.6g} J, plastic {:.6g} J, contact {:.6g} J, friction {:.6g} J; "
-                  "started with {:.6g} "
-                  "J, work from outside {:.6g} J.\n"
-                  "  Likely cause: the step is too large for {} elements or for the contact springs.\n"
-                  "  Cure: time_step = \"auto\" with a smaller step_safety, or softer contact springs.",
-                  100 * ledger.energy_error(), when(state.clock), 100 * model.run.stop_at_energy_error,
-                  ledger.kinetic_energy, ledger.elastic_energy(), ledger.plastic_work.value(), ledger.contact_energy,
-                  ledger.friction_work.value(), ledger.start_energy, ledger.external_work(), "crushed"));
+  throw NumericalError(fmt::format(
+      "the energy books are {:.3g} % apart {}; the case allows {:.3g} %.\n"
+      "  Kinetic {:.6g} J, elastic {:.6g} J, plastic {:.6g} J, contact {:.6g} J, friction {:.6g} J; started with "
+      "{:.6g} J, "
+      "work from outside {:.6g} J. The step is set by {}.\n"
+      "  Likely cause: the step is too large for crushed elements or for the contact springs.\n"
+      "  Cure: time_step = \"auto\" with a smaller step_safety, 0.5, or softer contact springs.",
+      100 * ledger.energy_error(), when(state.clock), 100 * model.run.stop_at_energy_error, ledger.kinetic_energy,
+      ledger.elastic_energy(), ledger.plastic_work.value(), ledger.contact_energy, ledger.friction_work.value(),
+      ledger.start_energy, ledger.external_work(), element_text(model, state, state.clock.limit.element)));
 }
 
 }  // namespace udar

@@ -125,7 +125,8 @@ void move(const Model& model, State& state, Workspace& work, const RigidBody& ri
           .force = push.force + damping.linear,
           .carried = rigid.mass * after.linear,
           .momentum = multistep ? rigid.mass * motion.now.linear : Vec2{},
-          .damping_force = damping.linear};
+          .damping_force = damping.linear,
+          .damping_moment = cross(motion.place, damping.linear) + damping.angular};
 }
 
 }  // namespace

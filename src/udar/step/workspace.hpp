@@ -65,6 +65,7 @@ struct OuterNodes {
 struct PairForces {
   Account total;
   Account pressing;  ///< without friction
+  Vec2 damping{};    ///< N, of the dashpots of an obstacle's corners
   std::uint64_t touching = 0;
 };
 

@@ -110,7 +110,7 @@ template <class Real>
 struct NodeLaneSums {
   LaneSum<Real> internal_power, kinetic, kinetic_after, spin, spin_after;
   LaneVector<Real> position, force, carried, momentum;
-  LaneSum<Real> damping_before, damping_after;
+  LaneSum<Real> damping_before, damping_after, damping_moment;
   LaneVector<Real> damping;
 
   NodeLaneSums() = default;
@@ -126,6 +126,7 @@ struct NodeLaneSums {
         momentum(p.momentum),
         damping_before(p.damping_before),
         damping_after(p.damping_after),
+        damping_moment(p.damping_moment),
         damping(p.damping) {}
 };
 
@@ -226,6 +227,7 @@ void accelerate(const NodeTask& task, const Constants<Real>& k, const Rule& rule
     sums.damping.add(damping, lane);
     sums.damping_before.add(dot(damping, before), lane);
     sums.damping_after.add(dot(damping, after), lane);
+    sums.damping_moment.add(cross(node.place, damping), lane);
   }
 }
 
@@ -253,7 +255,8 @@ template <class Rule>
           .force = sums.force.total(),
           .carried = sums.carried.total(),
           .momentum = sums.momentum.total(),
-          .damping_force = sums.damping.total()};
+          .damping_force = sums.damping.total(),
+          .damping_moment = sums.damping_moment.total()};
 }
 
 }  // namespace

@@ -44,19 +44,29 @@ struct BlockBuffer {
 /// Works are kept as integrals over twice the area of (s_n + s_{n+1}) : de and of the plastic work, in J/m.
 struct LaneSums {
   static constexpr Index packs = lanes / Pack::lanes;
-  Pack stress_work[packs], plastic_work[packs], stretch[packs];
+  Pack stress_work[packs], plastic_work[packs], stretch[packs], unseen[packs], area[packs];
 
   LaneSums() {
     for (Pack& p : stress_work) p = Pack(0);
     for (Pack& p : plastic_work) p = Pack(0);
     for (Pack& p : stretch) p = Pack(0);
+    for (Pack& p : unseen) p = Pack(0);
+    for (Pack& p : area) p = Pack(__builtin_inf());
   }
   static Index pack_of(Index element) { return element % lanes / Pack::lanes; }
 
   [[nodiscard]] ElementSums total(double half_thickness) const {
     return {.stress_work = 0.5 * half_thickness * sum_of_lanes(stress_work),
             .plastic_work = half_thickness * sum_of_lanes(plastic_work),
-            .smallest_area = __builtin_inf()};
+            .smallest_area = smallest_area(),
+            .unseen = sum_of_lanes(unseen)};
+  }
+  [[nodiscard]] double smallest_area() const {
+    double smallest = __builtin_inf();
+    for (const Pack& pack : area) {
+      for (Index l = 0; l < Pack::lanes; ++l) smallest = smaller(smallest, pack.v[l]);
+    }
+    return smallest;
   }
   [[nodiscard]] double largest_stretch() const {
     double squared = 0;
@@ -85,11 +95,12 @@ void strain(const ElementTask& task, Index i, const Sides<Pack>& start, const Si
   for (const double* component : {task.xx, task.yy, task.xy, task.zz}) __builtin_prefetch(component + i, 1);
   const Index p = LaneSums::pack_of(i);
   sums.stretch[p] = larger(sums.stretch[p], stretch_squared(e));
+  sums.area[p] = smaller(sums.area[p], e.twice_area);
   buffer.sides[i / Pack::lanes] = mid + half_change;
   buffer.strains[i / Pack::lanes] = e;
 }
 
-/// Elastic trial stress and its work; returns whether the pack flows.
+/// Elastic trial stress and its work; returns whether the pack flows. What makes no force is looked at, too.
 template <class Law>
 bool try_elastic(const ElementTask& task, Index i, const Law& law, const StrainStep<Pack>& e, LaneSums& sums) {
   const SymTensor<Pack> before = load_stress(task, i);
@@ -97,6 +108,8 @@ bool try_elastic(const ElementTask& task, Index i, const Law& law, const StrainS
   store_stress(task, i, trial);
   Pack& work = sums.stress_work[LaneSums::pack_of(i)];
   work = work + e.twice_area * stress_work(before + trial, e);
+  Pack& unseen = sums.unseen[LaneSums::pack_of(i)];
+  unseen = unseen + (Pack::load(task.plastic_strain + i) + trial.zz);
   return any(law.flows(trial));
 }
 
@@ -175,7 +188,7 @@ void bound_frequency(const ElementTask& task, Index elements, const Elasticity& 
   FrequencyBound& frequency = *task.frequency;
   frequency.squared = stretch <= bounded ? frequency.squared * (1 + 1.1 * stretch) : __builtin_inf();
   if (frequency.squared <= task.compute_above) return;
-  sums.smallest_area = compute_frequency(task, elements, elasticity, buffer);
+  sums.smallest_area = smaller(sums.smallest_area, compute_frequency(task, elements, elasticity, buffer));
 }
 
 /// Loop by loop rather than element by element: each loop keeps its constants and intermediate results in registers,
