@@ -89,9 +89,9 @@ class CommandLine(Program):
 
     def test_wrong_commands(self):
         for words, message, cure in [
-            ([], "a command is needed: run, resume, check, converge, sweep, diff, report, plot, picture, movie or keys", "udar --help"),
+            ([], "a command is needed: run, resume, check, converge, sweep, diff, report, plot, picture, movie, keys or verify", "udar --help"),
             (["rnu", "block.toml"], "`rnu` is no command", "did you mean `run`?"),
-            (["frobnicate"], "`frobnicate` is no command", "write run, resume, check, converge, sweep, diff, report, plot, picture, movie or keys"),
+            (["frobnicate"], "`frobnicate` is no command", "write run, resume, check, converge, sweep, diff, report, plot, picture, movie, keys or verify"),
             (["run"], "a case file is needed", "`udar run --help`"),
             (["report"], "the folder of a run is needed", "`udar report --help`"),
             (["report", "runs", "--frames", "1"], "--frames", "`udar report --help`"),
