@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
+#include <vector>
 
 #include "udar/base/human_unit.hpp"
 
@@ -88,4 +90,26 @@ TEST_CASE("ticks of a logarithmic axis") {
   CHECK(exact.values.front() == doctest::Approx(1));
   CHECK(exact.values.back() == doctest::Approx(10));
   CHECK(log_ticks_over(3, 3).values.size() >= 2);
+}
+
+TEST_CASE("values that differ by rounding, or are as large and small as numbers get, have a few ticks") {
+  const double tiny = 5e-324;
+  const double huge = 1.7e308;
+  for (const auto& [low, high] : std::vector<std::pair<double, double>>{{1, std::nextafter(1, 2)},
+                                                                        {-3.2e7, std::nextafter(-3.2e7, 0)},
+                                                                        {1e22, 1e22 + 4e6},
+                                                                        {0, tiny},
+                                                                        {tiny, tiny},
+                                                                        {-huge, huge},
+                                                                        {huge, huge},
+                                                                        {0, huge},
+                                                                        {-tiny, tiny},
+                                                                        {2.5, 2.5}}) {
+    INFO(low, " to ", high);
+    for (const Ticks& ticks : {ticks_over(low, high, 7), ticks_within(low, high, 7), log_ticks_over(low, high)}) {
+      CHECK(!ticks.values.empty());
+      CHECK(ticks.values.size() <= 30);
+      for (const double v : ticks.values) CHECK(std::isfinite(v));
+    }
+  }
 }

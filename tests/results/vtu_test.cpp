@@ -1,8 +1,10 @@
 #include "udar/results/vtu.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/core.h>
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <random>
 
@@ -261,4 +263,22 @@ TEST_CASE("an index that is none, or leads out of its folder, is refused") {
   CHECK_THROWS_AS(parse_pvd("<DataSet timestep=\"x\""), OutputError);
   CHECK_THROWS_AS(parse_pvd("<Collection><DataSet timestep=\"x\" file=\"a\"/>"), OutputError);
   CHECK_THROWS_AS(parse_pvd("hello"), OutputError);
+  for (const char* time : {"nan", "inf", "-inf", "1e400", ""}) {
+    CHECK_THROWS_AS(parse_pvd(fmt::format("<Collection><DataSet timestep=\"{}\" file=\"a\"/>", time)), OutputError);
+  }
+}
+
+TEST_CASE("blocks that hold nothing are refused before they are unpacked") {
+  VtuGrid grid;
+  grid.points.resize(100);
+  const std::string good = to_vtu(grid);
+  const std::size_t data = good.find('_', good.find("<AppendedData")) + 1;
+  std::uint64_t blocks = 0;
+  std::memcpy(&blocks, good.data() + data, sizeof blocks);
+  CHECK(blocks == 1);
+  // 300 numbers may be cut into five blocks of 64 or so, not into a thousand.
+  std::string bad = good + std::string(100000, '\0');
+  blocks = 1000;
+  std::memcpy(bad.data() + data, &blocks, sizeof blocks);
+  CHECK(contains(message_of<OutputError>([&] { parse_vtu(bad); }), "more blocks than its numbers fill"));
 }

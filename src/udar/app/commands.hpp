@@ -48,6 +48,9 @@ void add_case_options(CLI::App& command, CaseArguments& arguments);
 double si_of_option(std::string_view option, std::string_view text, Dimension needed);
 double time_of_option(std::string_view option, std::string_view text);
 
+/// A size of a file in bytes: "25 MB", "500 kB", "1.5 GB"; a plain number is in MB. Throws UserError (usage).
+std::size_t size_of_option(std::string_view option, std::string_view text);
+
 /// --width of a picture, px.
 void add_width_option(CLI::App& command, int& width);
 

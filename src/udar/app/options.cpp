@@ -1,4 +1,7 @@
 #include <CLI/CLI.hpp>
+#include <array>
+#include <charconv>
+#include <cmath>
 
 #include "udar/app/commands.hpp"
 #include "udar/app/terminal.hpp"
@@ -31,6 +34,26 @@ double si_of_option(std::string_view option, std::string_view text, Dimension ne
 
 double time_of_option(std::string_view option, std::string_view text) {
   return si_of_option(option, text, dimension::time);
+}
+
+std::size_t size_of_option(std::string_view option, std::string_view text) {
+  struct Unit {
+    std::string_view name;
+    double bytes;
+  };
+  constexpr std::array units{Unit{"", 1e6}, Unit{"MB", 1e6}, Unit{"kB", 1e3}, Unit{"GB", 1e9}};
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  std::string_view rest(end, static_cast<std::size_t>(text.data() + text.size() - end));
+  while (!rest.empty() && rest.front() == ' ') rest.remove_prefix(1);
+  for (const Unit& unit : units) {
+    const double bytes = number * unit.bytes;
+    if (error == std::errc() && rest == unit.name && bytes >= 1 && bytes < 1e15) {
+      return static_cast<std::size_t>(std::llround(bytes));
+    }
+  }
+  throw UserError(ExitCode::usage, fmt::format("`{} {}` is no size of a file", option, text),
+                  "write it as \"25 MB\", \"500 kB\" or \"1.5 GB\"");
 }
 
 }  // namespace udar

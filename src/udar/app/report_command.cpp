@@ -1,8 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
-#include <charconv>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -43,31 +40,10 @@ std::string whole_name(const std::string& name) {
   return name.empty() || at == kinds.end() ? name : std::string(at->name);
 }
 
-/// "25 MB", "500 kB", "1.5 GB"; a plain number is in MB.
-std::size_t bytes_of(std::string_view text) {
-  struct Unit {
-    std::string_view name;
-    double bytes;
-  };
-  constexpr std::array units{Unit{"", 1e6}, Unit{"MB", 1e6}, Unit{"kB", 1e3}, Unit{"GB", 1e9}};
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  std::string_view rest(end, static_cast<std::size_t>(text.data() + text.size() - end));
-  while (!rest.empty() && rest.front() == ' ') rest.remove_prefix(1);
-  for (const Unit& unit : units) {
-    const double bytes = number * unit.bytes;
-    if (error == std::errc() && rest == unit.name && bytes >= 1 && bytes < 1e15) {
-      return static_cast<std::size_t>(std::llround(bytes));
-    }
-  }
-  throw UserError(ExitCode::usage, fmt::format("`--limit {}` is no size of a file", text),
-                  "write it as \"25 MB\", \"500 kB\" or \"1.5 GB\"");
-}
-
 ExitCode report_run(const ReportArguments& arguments) {
   ReportOptions options;
   options.output = arguments.output;
-  options.limit = bytes_of(arguments.limit);
+  options.limit = size_of_option("--limit", arguments.limit);
   for (const std::string& name : arguments.fields) options.fields.push_back(whole_name(name));
   if (!arguments.output.empty() && std::filesystem::path(arguments.output).extension() != ".html") {
     throw UserError(ExitCode::usage, fmt::format("`{}` does not end in .html", arguments.output),

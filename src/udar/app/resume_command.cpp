@@ -55,7 +55,7 @@ Summary compute(const ResumeArguments& arguments, RunOptions& options, bool& rep
   const Checkpoint checkpoint = newest_checkpoint(arguments.folder, notes);
   refuse_changed_case(arguments.folder, checkpoint);
   for (const std::string& note : notes) {
-    fmt::print(stderr, "warning: {}\n  = the older checkpoint is used\n", note);
+    complain("warning: {}\n  = the older checkpoint is used\n", note);
   }
   Simulation simulation(read_case(checkpoint.run.case_text, RunFolder::resolved_case));
   report = simulation.input().output.report && !arguments.no_report;

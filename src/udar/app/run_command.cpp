@@ -45,8 +45,8 @@ fs::path folder_for(const RunArguments& arguments, const std::string& case_name)
 
 /// The command line that repeats the run.
 std::string command_text(const RunArguments& arguments) {
-  std::string text = "udar run " + arguments.input.file;
-  for (const std::string& assignment : arguments.input.assignments) text += " --set '" + assignment + "'";
+  std::string text = "udar run " + shell_word(arguments.input.file);
+  for (const std::string& assignment : arguments.input.assignments) text += " --set " + shell_word(assignment);
   return text;
 }
 

@@ -148,7 +148,7 @@ Summary run_with_status(Simulation& simulation, RunOptions& options, const std::
 ExitCode conclude_run(const Summary& summary, const fs::path& folder, bool report) {
   if (summary.stop_reason == "numerical" || summary.stop_reason == "disk") {
     flush_terminal();
-    fmt::print(stderr, "error: {}\n", summary.reasons.front());
+    complain("error: {}\n", summary.reasons.front());
   }
   Made made;
   if (report) made = make_report(folder);

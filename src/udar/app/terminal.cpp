@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "udar/case/ascii.hpp"
+
 namespace udar {
 namespace {
 
@@ -35,9 +37,21 @@ int flush_terminal() {
   return first_error;
 }
 
+void complain_text(std::string_view text) {
+  std::string lines;
+  for (;;) {
+    const std::size_t end = text.find('\n');
+    lines += printable(text.substr(0, end));
+    if (end == std::string_view::npos) break;
+    lines += '\n';
+    text.remove_prefix(end + 1);
+  }
+  std::fwrite(lines.data(), 1, lines.size(), stderr);
+}
+
 void print_warnings(const std::vector<Diagnostic>& warnings) {
   constexpr std::size_t word = std::string_view("error").size();
-  for (const Diagnostic& w : warnings) fmt::print(stderr, "warning{}", to_text(w).substr(word));
+  for (const Diagnostic& w : warnings) complain("warning{}", to_text(w).substr(word));
 }
 
 bool is_terminal() { return isatty(STDOUT_FILENO) == 1; }

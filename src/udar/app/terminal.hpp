@@ -23,6 +23,14 @@ void say(fmt::format_string<Values...> format, Values&&... values) {
 /// The first error number of the standard output; 0: everything was written.
 int flush_terminal();
 
+/// Writes to the standard error, free of what a terminal could take as a command: names of files may hold anything.
+void complain_text(std::string_view text);
+
+template <class... Values>
+void complain(fmt::format_string<Values...> format, Values&&... values) {
+  complain_text(fmt::format(format, std::forward<Values>(values)...));
+}
+
 /// To the standard error, as mistakes are told.
 void print_warnings(const std::vector<Diagnostic>& warnings);
 

@@ -13,6 +13,9 @@ std::string nearest_word(std::string_view word, std::span<const std::string> can
 /// "a, b or c".
 std::string one_of(std::span<const std::string> words);
 
+/// A word as a POSIX shell reads it back: quoted where that is needed.
+std::string shell_word(std::string_view word);
+
 /// Shortest decimal that reads back as the same double: "0.0025", "6.4e-08".
 std::string shortest(double value);
 

@@ -7,6 +7,7 @@
 
 #include "udar/base/error.hpp"
 #include "udar/case/build_parts.hpp"
+#include "udar/case/memory.hpp"
 #include "udar/mesh/boundary.hpp"
 #include "udar/mesh/neighbours.hpp"
 #include "udar/mesh/renumber.hpp"
@@ -185,6 +186,7 @@ void add_rigid_bodies(Model& model, const Case& input) {
 }  // namespace
 
 Model build_model(const Case& input) {
+  check_memory(input);
   std::vector<Mesh> meshes;
   for (const BodyCase& body : input.bodies) meshes.push_back(generate(body.mesh));
   return build_model(input, std::move(meshes));

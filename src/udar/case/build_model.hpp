@@ -9,7 +9,8 @@
 namespace udar {
 
 /// Everything of the case that does not change in a run: meshes made, placed and numbered for speed, masses lumped,
-/// springs given their stiffness, sets and observers found. Throws UserError where a place or name leads nowhere.
+/// springs given their stiffness, sets and observers found. Throws UserError where a place or name leads nowhere, and
+/// where there is not the memory for it.
 Model build_model(const Case& input);
 
 /// The same with the bodies' meshes given, one for each in the order of the case: from another program, say. They may

@@ -32,6 +32,8 @@ void add_obstacles(Model& model, const Case& input) {
                       .velocity = from.velocity,
                       .normal_stiffness = {},
                       .tangential_stiffness = {}};
+    obstacle.normal_stiffness.reserve(model.contact_stiffness.size());
+    obstacle.tangential_stiffness.reserve(model.contact_stiffness.size());
     for (const double automatic : model.contact_stiffness) {
       const double normal = from.stiffness.value_or(automatic);
       obstacle.normal_stiffness.push_back(normal);

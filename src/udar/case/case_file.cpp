@@ -2,15 +2,12 @@
 
 #include <fmt/core.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-
 #include "udar/case/ascii.hpp"
 #include "udar/case/document.hpp"
 #include "udar/case/keys.hpp"
 #include "udar/case/rules.hpp"
 #include "udar/case/tables.hpp"
+#include "udar/results/file.hpp"
 
 namespace udar {
 namespace {
@@ -28,16 +25,12 @@ std::string text_of(const std::filesystem::path& file) {
     refuse(name, "there is no such case file", "check the name and the folder");
   }
   if (is_directory(status)) refuse(name, "this is a folder, not a case file", "give the name of a file in it");
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  // One byte more than is allowed shows that a file is too large, also one whose size is not known beforehand.
-  std::string text(largest_document + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!stream.is_open() || stream.bad()) {
-    refuse(name, fmt::format("the case file cannot be read: {}", std::strerror(errno)), "check who may read it");
+  try {
+    // One byte more than is allowed shows that a file is too large, also one whose size is not known beforehand.
+    return read_beginning(file, largest_document + 1);
+  } catch (const OutputError& failure) {
+    refuse(name, fmt::format("the case file cannot be read: {}", failure.what()), "check who may read it");
   }
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  return text;
 }
 
 /// Everything that needs no file; `document` gives the places.

@@ -217,16 +217,22 @@ void check_selection(const Selection& s, const std::string& path, bool edges, Mi
   }
 }
 
-bool is_rigid(const Case& c, const std::string& name) {
-  return std::any_of(c.bodies.begin(), c.bodies.end(), [&](const BodyCase& b) { return b.name == name && b.rigid; });
+/// Looked up once: a case may have ten thousand bodies and as many supports.
+std::set<std::string> rigid_bodies(const Case& c) {
+  std::set<std::string> names;
+  for (const BodyCase& body : c.bodies) {
+    if (body.rigid) names.insert(body.name);
+  }
+  return names;
 }
 
 void check_supports(const Case& c, const Known& bodies, Mistakes& mistakes) {
+  const std::set<std::string> rigid = rigid_bodies(c);
   for (const SupportCase& s : c.supports) {
     const std::string path = join("supports", s.name);
     bodies.check(s.nodes.body, join(path, "body"), mistakes);
     check_selection(s.nodes, join(path, "nodes"), false, mistakes);
-    if (is_rigid(c, s.nodes.body)) {
+    if (rigid.contains(s.nodes.body)) {
       mistakes.add_unless_touched({join(path, "body"), fmt::format("the body \"{}\" is rigid", shown(s.nodes.body)),
                                    "it moves by its mass and what pushes it; supports hold nodes of others",
                                    "what moves as given is an obstacle: make it one, with a velocity"});
@@ -324,8 +330,9 @@ void check_rules(const Case& c, Mistakes& mistakes) {
   std::set<std::string> observers;
   check_observers(c.observed_nodes, "observe.nodes", bodies, observers, mistakes);
   check_observers(c.observed_elements, "observe.elements", bodies, observers, mistakes);
+  const std::set<std::string> rigid = rigid_bodies(c);
   for (std::size_t i = 0; i < c.observed_elements.size(); ++i) {
-    if (!is_rigid(c, c.observed_elements[i].body)) continue;
+    if (!rigid.contains(c.observed_elements[i].body)) continue;
     mistakes.add_unless_touched({join(join("observe.elements", std::to_string(i)), "body"),
                                  fmt::format("the body \"{}\" is rigid", shown(c.observed_elements[i].body)),
                                  "its elements have no stress", "observe one of its nodes instead"});

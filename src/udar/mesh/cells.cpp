@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "udar/base/error.hpp"
+#include "udar/base/memory.hpp"
 #include "udar/base/text.hpp"
 
 namespace udar {
@@ -26,12 +27,26 @@ Index cells_along(double length, double element_size, std::string_view what) {
   return static_cast<Index>(cells);
 }
 
+void check_memory_for(double elements, double bytes) {
+  // Of what is small the system need not be asked.
+  constexpr double always_there = 1 << 26;
+  if (bytes <= always_there) return;
+  const double there = memory_there();
+  if (bytes <= there) return;
+  throw UserError(ExitCode::resources,
+                  fmt::format("about {} elements need {} of memory at least; {} are there", in_units(elements, ""),
+                              in_units(bytes, "B"), in_units(there, "B")),
+                  "take a larger `element_size`, or fewer obstacles and bodies; is a unit wrong?");
+}
+
 void check_triangle_count(double triangles) {
-  if (3 * triangles <= most_corners) return;
-  throw UserError(
-      ExitCode::bad_mesh,
-      fmt::format("the mesh would have {:.3g} triangles; {:.0f} are the most", triangles, std::floor(most_corners / 3)),
-      "take a larger `element_size`");
+  if (3 * triangles > most_corners) {
+    throw UserError(ExitCode::bad_mesh,
+                    fmt::format("the mesh would have {:.3g} triangles; {:.0f} are the most", triangles,
+                                std::floor(most_corners / 3)),
+                    "take a larger `element_size`");
+  }
+  check_memory_for(triangles, least_bytes_per_element * triangles);
 }
 
 void check_placement(Vec2 at, double turn) {

@@ -15,7 +15,15 @@ inline constexpr double most_corners = 2147483648.0;
 /// there is not one, a size is not positive and finite, or the number alone makes too many corners.
 Index cells_along(double length, double element_size, std::string_view what);
 
-/// Throws UserError(bad_mesh) where so many triangles have too many corners.
+/// Bytes that a run takes at least for each element, its mesh included: large ones took 216 (docs/performance.md).
+inline constexpr double least_bytes_per_element = 210;
+
+/// Throws UserError(resources) where so many elements that take so many bytes are more than this machine, or a limit of
+/// the process, leaves.
+void check_memory_for(double elements, double bytes);
+
+/// Throws UserError(bad_mesh) where so many triangles have too many corners, UserError(resources) where there is not
+/// the memory for them.
 void check_triangle_count(double triangles);
 
 /// Throws UserError(bad_mesh) where a place or a turn is not a finite number.

@@ -70,6 +70,7 @@ class StudyPlots {
 
   std::vector<fs::path> write() {
     std::error_code error;
+    refuse_link(folder_ / StudyFolder::plots);
     fs::create_directories(folder_ / StudyFolder::plots, error);
     if (error) {
       throw OutputError(fmt::format("cannot make {}: {}", (folder_ / StudyFolder::plots).string(), error.message()));

@@ -17,13 +17,19 @@ double round_up(double value) {
   return 10 * power;
 }
 
+/// Sizes whose powers of ten, ranges and sums are numbers.
+constexpr double largest = 1e300;
+constexpr double smallest = 1e-290;
+
+double bounded(double value) { return std::isnan(value) ? 0 : std::clamp(value, -largest, largest); }
+
 }  // namespace
 
 std::string Ticks::text(double value) const {
   if (logarithmic) return fmt::format("{:.4g}", value);
   if (std::fabs(value) < 1e-9 * step) return "0";
-  const double largest = std::max(std::fabs(values.front()), std::fabs(values.back()));
-  if (largest >= 1e6 || largest < 1e-4) return fmt::format("{:.4g}", value);
+  const double furthest = std::max(std::fabs(values.front()), std::fabs(values.back()));
+  if (furthest >= 1e6 || furthest < 1e-4) return fmt::format("{:.4g}", value);
   const int digits = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
   std::string number = fmt::format("{:.{}f}", value, digits);
   if (number[0] == '-') number = "−" + number.substr(1);
@@ -31,7 +37,12 @@ std::string Ticks::text(double value) const {
 }
 
 Ticks ticks_over(double low, double high, int wanted) {
-  if (!(high > low)) high = low + (low == 0 ? 1 : std::fabs(low));
+  low = bounded(low);
+  high = bounded(high);
+  // What differs by rounding only is one value. Ticks between would be multiples beyond 2^53, where adding 1 changes
+  // nothing, and there would be no end of them.
+  const double size = std::max(std::fabs(low), std::fabs(high));
+  if (!(high - low > std::max(1e-12 * size, smallest))) high = low + (size < smallest ? 1 : size);
   Ticks ticks;
   ticks.step = round_up((high - low) / std::max(1, wanted));
   // Whole multiples, so that no rounding adds up; a hair outside still counts as on the tick.
@@ -50,6 +61,8 @@ Ticks ticks_within(double low, double high, int wanted) {
 }
 
 Ticks log_ticks_over(double low, double high) {
+  low = std::clamp(low, smallest, largest);
+  high = std::clamp(high, smallest, largest);
   if (!(high > low)) high = 10 * low;
   const double first = std::floor(std::log10(low) + 1e-9);
   const double last = std::ceil(std::log10(high) - 1e-9);

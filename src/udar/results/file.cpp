@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/core.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <sys/uio.h>
 #include <unistd.h>
@@ -44,9 +45,10 @@ const char* cure(int error) {
   }
 }
 
-[[noreturn]] void fail(const char* action, const fs::path& path, int error) {
-  throw OutputError(
-      fmt::format("cannot {} {}: {}{}", action, path.string(), std::generic_category().message(error), cure(error)));
+[[noreturn]] void fail(std::string_view action, const fs::path& path, int error) {
+  const bool reads = action == "open" || action == "read";  // the cures are for what is written
+  throw OutputError(fmt::format("cannot {} {}: {}{}", action, path.string(), std::generic_category().message(error),
+                                reads ? "" : cure(error)));
 }
 
 /// Calls again while a signal interrupts.
@@ -184,6 +186,27 @@ std::string read_file(const fs::path& path, std::size_t most_bytes) {
     }
     if (count == 0) return bytes;
   }
+}
+
+std::string read_beginning(const fs::path& path, std::size_t most) {
+  const Descriptor file(retry([&] { return ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK); }));
+  if (!file.is_open()) fail("open", path, errno);
+  std::string bytes(most, '\0');
+  for (std::size_t done = 0; done < most;) {
+    const ssize_t count = retry([&] { return ::read(file.number(), bytes.data() + done, most - done); });
+    if (count < 0 && errno == EAGAIN) {
+      pollfd wait{file.number(), POLLIN, 0};
+      retry([&] { return ::poll(&wait, 1, -1); });
+      continue;
+    }
+    if (count < 0) fail("read", path, errno);
+    if (count == 0) {
+      bytes.resize(done);
+      break;
+    }
+    done += static_cast<std::size_t>(count);
+  }
+  return bytes;
 }
 
 PartReader::PartReader(fs::path path) : path_(std::move(path)) {

@@ -19,6 +19,10 @@ void write_file(const std::filesystem::path& path, std::string_view bytes);
 /// The whole file. Throws OutputError where it cannot be read or is larger than `most_bytes`.
 std::string read_file(const std::filesystem::path& path, std::size_t most_bytes);
 
+/// The first bytes of a file, `most` of them or fewer. Of a pipe it waits for what is written; where nobody writes it,
+/// that is nothing. Throws OutputError.
+std::string read_beginning(const std::filesystem::path& path, std::size_t most);
+
 /// Waits until what was written so far to these files is on the disk for good. Throws OutputError.
 void sync_files(const std::vector<std::filesystem::path>& files);
 

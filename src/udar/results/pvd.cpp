@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "udar/base/error.hpp"
 #include "udar/results/file.hpp"
@@ -17,7 +18,7 @@ PvdEntry parse_entry(const XmlTag& tag) {
   entry.file = tag.attribute("file");
   const std::string time = tag.attribute("timestep");
   const auto [end, error] = std::from_chars(time.data(), time.data() + time.size(), entry.time);
-  if (time.empty() || error != std::errc() || end != time.data() + time.size()) {
+  if (time.empty() || error != std::errc() || end != time.data() + time.size() || !std::isfinite(entry.time)) {
     throw OutputError(fmt::format("`{}` is not a time", time.substr(0, 40)));
   }
   entry.part = static_cast<int>(std::min<std::size_t>(tag.count("part").value_or(0), 1000));

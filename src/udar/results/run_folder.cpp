@@ -63,14 +63,6 @@ void make_folder(const fs::path& path) {
   if (error || !fs::is_directory(path, error)) disk_refuses("make folder", path, error);
 }
 
-void refuse_link(const fs::path& path) {
-  std::error_code error;
-  if (!fs::is_symlink(fs::symlink_status(path, error))) return;
-  throw UserError(ExitCode::usage,
-                  fmt::format("`{}` is a link; results are never written through a link", path.string()),
-                  "remove it, or choose another folder with `--output`");
-}
-
 void check_free(const fs::path& path, bool force) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -93,6 +85,14 @@ void check_free(const fs::path& path, bool force) {
 
 }  // namespace
 
+void refuse_link(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_symlink(fs::symlink_status(path, error))) return;
+  throw UserError(ExitCode::usage,
+                  fmt::format("`{}` is a link; results are never written through a link", path.string()),
+                  "remove it, or choose another folder with `--output`");
+}
+
 fs::path RunFolder::history(std::string_view observer) const {
   return path / histories / (safe_name(observer) + ".csv");
 }
@@ -102,6 +102,7 @@ std::string RunFolder::frame_name(std::string_view part, int frame) {
 }
 
 RunFolder create_run_folder(const fs::path& path, bool force) {
+  refuse_link(path);
   check_free(path, force);
   make_folder(path);
   auto lock = std::make_shared<const FolderLock>(path);

@@ -38,8 +38,12 @@ struct RunFolder {
 
 /// Makes an empty run folder with its sub-folders. A folder that holds something is refused (UserError, usage) unless
 /// `force`, and even then unless Udar made it: then the files that Udar writes are removed, and no others; links are
-/// removed, not followed. Throws OutputError when the disk refuses.
+/// removed, not followed, and a folder that is a link is refused. Throws OutputError when the disk refuses.
 RunFolder create_run_folder(const std::filesystem::path& path, bool force);
+
+/// Throws UserError(usage) where `path` is a link: what is written into a folder that a stranger made must not leave
+/// it.
+void refuse_link(const std::filesystem::path& path);
 
 /// Takes up a run folder again whose run was stopped. Throws UserError (usage) where it is none, or where the run is
 /// still under way.

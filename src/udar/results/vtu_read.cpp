@@ -77,13 +77,17 @@ struct AppendedData {
   std::size_t size = 0;
   std::function<std::string(std::size_t at, std::size_t count)> read;  ///< fewer bytes where the data end
 
-  /// An array with its header: how many blocks, how long each is, the blocks.
-  [[nodiscard]] std::string array(std::size_t at) const {
+  /// An array of so many numbers with its header: how many blocks, how long each is, the blocks.
+  [[nodiscard]] std::string array(std::size_t at, std::size_t numbers) const {
     constexpr std::size_t word = sizeof(std::uint64_t);
     check(at <= size, "an array has no data");
     const std::string head = read(at, 3 * word);
     const std::uint64_t block_count = DataReader{head}.number();
     check(block_count <= (size - at) / word, "more blocks than bytes");
+    // To unpack a block costs as much as a thousand numbers do, and arrays may share their bytes: empty blocks would
+    // cost minutes. Writers take blocks of many thousand.
+    constexpr std::size_t least_per_block = 64;
+    check(block_count <= 1 + numbers / least_per_block, "more blocks than its numbers fill");
     const std::string words = read(at + 3 * word, block_count * word);
     std::size_t bytes = 3 * word + words.size();
     for (DataReader sizes{words}; !sizes.data.empty();) {
@@ -120,7 +124,7 @@ struct GridReader {
     check(tuples <= budget / components, "a count is larger than the data can hold");
     budget -= tuples * components;
     return {tag.attribute("Name"), static_cast<int>(components),
-            read_values(tag.attribute("type"), data.array(offset), tuples * components)};
+            read_values(tag.attribute("type"), data.array(offset, tuples * components), tuples * components)};
   }
 
   template <class Number>
@@ -171,6 +175,9 @@ struct GridReader {
   XmlTag connectivity{};
 };
 
+/// The beginning of a file, long enough to hold all XML that Udar writes.
+constexpr std::size_t head_bytes = std::size_t{1} << 15;
+
 /// Where the appended data begin, and where in the text before them the XML ends.
 struct Layout {
   std::size_t xml_end = 0;
@@ -178,7 +185,7 @@ struct Layout {
 };
 
 Layout layout_of(std::string_view begin) {
-  const std::size_t appended = begin.find("<AppendedData encoding=\"raw\">");
+  const std::size_t appended = begin.substr(0, head_bytes).find("<AppendedData encoding=\"raw\">");
   const std::size_t start = begin.find('_', appended);
   check(appended != std::string_view::npos && start != std::string_view::npos, "there is no appended raw data");
   return {appended, start + 1};
@@ -211,9 +218,6 @@ VtuGrid read_grid(std::string_view xml, AppendedData data, const VtuPart* part) 
   if (reader.wants_cells()) reader.read_connectivity();
   return std::move(reader.grid);
 }
-
-/// The beginning of a file, long enough to hold all XML that Udar writes.
-constexpr std::size_t head_bytes = std::size_t{1} << 15;
 
 VtuGrid read_part(const std::filesystem::path& path, const VtuPart* part) {
   const PartReader file(path);

@@ -5,30 +5,13 @@
 #include <system_error>
 
 #include "udar/base/error.hpp"
+#include "udar/base/text.hpp"
 #include "udar/results/file.hpp"
+#include "udar/results/run_folder.hpp"
 #include "udar/study/tables.hpp"
 
 namespace udar {
-namespace {
-
 namespace fs = std::filesystem;
-
-/// A word as a POSIX shell reads it back.
-std::string quoted(const std::string& word) {
-  constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+@%";
-  if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-  std::string out = "'";
-  for (const char c : word) {
-    if (c == '\'') {
-      out += "'\\''";
-    } else {
-      out += c;
-    }
-  }
-  return out + "'";
-}
-
-}  // namespace
 
 StudyLock open_study_folder(const fs::path& folder) {
   std::error_code error;
@@ -49,6 +32,7 @@ StudyLock open_study_folder(const fs::path& folder) {
   };
   make(folder);
   StudyLock lock(folder / StudyFolder::marker);
+  refuse_link(folder / StudyFolder::runs);
   make(folder / StudyFolder::runs);
   return lock;
 }
@@ -59,7 +43,7 @@ std::size_t write_commands(const StudyInput& input, const fs::path& folder, cons
   for (const PlannedRun& run : plan) {
     if (look_at(folder / StudyFolder::runs / run.name, run).state != Standing::State::missing) continue;
     text += "udar";
-    for (const std::string& word : words_of(input, folder, run, 0)) text += " " + quoted(word);
+    for (const std::string& word : words_of(input, folder, run, 0)) text += " " + shell_word(word);
     text += "\n";
     ++count;
   }
