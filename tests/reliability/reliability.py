@@ -13,6 +13,7 @@ import filecmp
 import json
 import os
 import random
+import re
 import shutil
 import signal
 import subprocess
@@ -314,8 +315,20 @@ class Trials:
             need(not found, found)
             self.count("runs gone on with on another number of threads")
 
+    def planted_faults(self):
+        """What is not a number, and elements turned inside out, planted at random places of State in random steps."""
+        tests = self.program.parent / "tests/test_simulation"
+        words = [str(tests), "--source-file=*/planted_faults_test.cpp", "--success=false"]
+        done = subprocess.run(words, cwd=self.folder, capture_output=True, text=True, check=False)
+        line = re.search(r"planted faults (\d+) found (\d+) named (\d+) restored (\d+)", done.stdout)
+        need(done.returncode == 0 and line, f"planted_faults_test: {done.stdout[-600:]}{done.stderr[-600:]}")
+        for name, number in zip(["planted", "found in the same step", "of these with body, element, place and cause named",
+                                 "of these with the last good state brought back"], line.groups()):
+            self.count(name, int(number))
+
     trials = {"kills": kills_at_any_moment, "calls": kills_in_every_call, "failures": failures_of_every_call,
-              "damage": damage, "signals": signals, "threads": another_thread_count}
+              "damage": damage, "signals": signals, "threads": another_thread_count,
+              "faults": planted_faults}
 
 
 def table(counts):

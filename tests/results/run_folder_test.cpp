@@ -34,6 +34,16 @@ TEST_CASE("a new folder is made with its sub-folders, also in an empty one") {
   CHECK_NOTHROW(create_run_folder(scratch / "empty", false));
 }
 
+TEST_CASE("a folder of a run that was killed in its first moment is as good as an empty one") {
+  const Scratch scratch;
+  for (const char* left : {".udar-run.tmp", ".udar-run"}) {
+    const fs::path folder = scratch / (std::string("killed") + left);
+    fs::create_directory(folder);
+    write_file(folder / left, "");
+    CHECK_NOTHROW(create_run_folder(folder, false));
+  }
+}
+
 TEST_CASE("results are not replaced without force") {
   const Scratch scratch;
   make_run(scratch / "run");

@@ -71,7 +71,12 @@ void check_free(const fs::path& path, bool force) {
     throw UserError(ExitCode::usage, fmt::format("`{}` exists and is not a folder", path.string()),
                     "choose another folder with `--output`");
   }
-  if (content(path).empty()) return;
+  // All that is left of a run that was killed in its first moment is no result.
+  const auto is_nothing = [](const fs::path& file) {
+    return without_temporary(file.filename().string()) == RunFolder::marker;
+  };
+  const auto files = content(path);
+  if (std::all_of(files.begin(), files.end(), is_nothing)) return;
   if (!fs::is_regular_file(fs::symlink_status(path / RunFolder::marker, error))) {
     throw UserError(ExitCode::usage,
                     fmt::format("the folder `{}` holds files that are not the results of a run", path.string()),
