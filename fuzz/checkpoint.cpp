@@ -1,3 +1,5 @@
+#include "udar/simulation/checkpoint.hpp"
+
 #include <zlib.h>
 
 #include <cstring>
@@ -9,7 +11,6 @@
 #include "udar/base/error.hpp"
 #include "udar/case/build_model.hpp"
 #include "udar/case/case_file.hpp"
-#include "udar/simulation/checkpoint.hpp"
 #include "udar/step/step.hpp"
 
 using namespace udar;
