@@ -200,6 +200,9 @@ class Convergence(Studies):
         self.assertFalse((self.folder / "study/study.json").exists())
         self.converge("--mesh", "4", "--step", "1", *SLOW)
         self.assertEqual([run["state"] for run in self.study()["runs"]], ["done"] * 4)
+        # The run in flight went on from its checkpoint.
+        summary = json.loads((self.folder / "study/runs/mesh4-step1/summary.json").read_text())
+        self.assertEqual(summary["resumed"], 1)
 
     def test_a_level_that_fails_is_told_and_the_others_are_shown(self):
         # The energy error falls with the step: the coarsest mesh is stopped, the others are not.

@@ -106,8 +106,8 @@ class Resume(unittest.TestCase):
         self.assertIn("r/resolved.toml is not the case that was running", err)
         path.write_text(text)
         shutil.rmtree(self.folder / "r/histories")
-        _, err = self.udar("resume", "r", code=6)
-        self.assertIn("histories", err)
+        _, err = self.udar("resume", "r", code=8)
+        self.assertIn("checkpoint_a.bin cannot be used: cannot open r/histories/", err)
 
     def test_not_a_run_that_is_under_way(self):
         words = ["run", "a.toml", "--no-report", "--output", "r", "--set", "run.end_time=1 h", "--set",

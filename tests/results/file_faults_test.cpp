@@ -10,6 +10,8 @@
 #include <cstdio>
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "tests/results/scratch.hpp"
 #include "udar/results/file.hpp"
@@ -25,7 +27,25 @@ struct Fault {
 };
 thread_local Fault fault;
 
+/// What was called, while someone listens: "fsync a.txt.tmp".
+thread_local std::vector<std::string>* heard = nullptr;
+
+void tell(long number, long a, long b) {
+  if (heard == nullptr) return;
+  std::vector<std::string>& list = *std::exchange(heard, nullptr);  // not what telling itself calls
+  namespace fs = std::filesystem;
+  const auto name = [](const fs::path& path) { return path.filename().string(); };
+  if (number == SYS_rename) {
+    list.push_back("rename " + name(reinterpret_cast<const char*>(a)) + " " + name(reinterpret_cast<const char*>(b)));
+  } else {
+    const fs::path file = fs::read_symlink("/proc/self/fd/" + std::to_string(a));
+    list.push_back((number == SYS_fsync ? "fsync " : number == SYS_close ? "close " : "write ") + name(file));
+  }
+  heard = &list;
+}
+
 long call_or_fail(long number, long a, long b = 0, long c = 0) {
+  tell(number, a, b);
   if (fault.strikes()) {
     if (number == SYS_close) ::syscall(SYS_close, a);
     errno = fault.error;
@@ -88,6 +108,17 @@ TEST_CASE("whatever call fails, the file is old or new, and the failure is repor
     }
   }
   CHECK(failures == 5);
+}
+
+TEST_CASE("bytes are on the disk before the name, and the name before the writer returns") {
+  const Scratch folder;
+  std::filesystem::create_directory(folder / "inner");
+  std::vector<std::string> calls;
+  heard = &calls;
+  write_file(folder / "inner/a.txt", "content");
+  heard = nullptr;
+  CHECK(calls == std::vector<std::string>{"write a.txt.tmp", "fsync a.txt.tmp", "close a.txt.tmp",
+                                          "rename a.txt.tmp a.txt", "fsync inner", "close inner"});
 }
 
 TEST_CASE("a file made in pieces is there when it is whole, or never") {

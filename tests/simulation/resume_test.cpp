@@ -70,7 +70,7 @@ void check_parts(const Case& input, std::initializer_list<std::uint64_t> steps) 
     const bool last = next == steps.end();
     threads = threads % 4 + 1;
     std::vector<std::string> notes;
-    const Checkpoint checkpoint = newest_checkpoint(scratch / "part", notes);
+    Checkpoint checkpoint = newest_checkpoint(scratch / "part", notes);
     CHECK(notes.empty());
     Simulation part(read_case(checkpoint.run.case_text, "resolved.toml"));
     RunOptions options = options_for(scratch / "part", threads, last ? never : *next);
@@ -139,9 +139,9 @@ TEST_CASE("resume: a checkpoint of other histories or another case is refused") 
   const Case input = block_with_frames();
   Simulation(input).run(options_for(scratch / "part", 1, 20));
   std::vector<std::string> notes;
-  const Checkpoint checkpoint = newest_checkpoint(scratch / "part", notes);
+  Checkpoint checkpoint = newest_checkpoint(scratch / "part", notes);
   const auto refusal = [&](const Case& other) {
-    return message_of<OutputError>([&] {
+    return message_of<UserError>([&] {
       RunOptions options = options_for(scratch / "part", 1, never);
       options.resume = &checkpoint;
       Simulation(other).run(options);

@@ -52,7 +52,7 @@ void refuse_changed_case(const fs::path& folder, const Checkpoint& checkpoint) {
 /// Goes on. The checkpoint's memory is free again at the end.
 Summary compute(const ResumeArguments& arguments, RunOptions& options, bool& report) {
   std::vector<std::string> notes;
-  const Checkpoint checkpoint = newest_checkpoint(arguments.folder, notes);
+  Checkpoint checkpoint = newest_checkpoint(arguments.folder, notes);
   refuse_changed_case(arguments.folder, checkpoint);
   for (const std::string& note : notes) {
     complain("warning: {}\n  = the older checkpoint is used\n", note);

@@ -85,6 +85,11 @@ CheckpointFile::CheckpointFile(std::string bytes) : bytes_(std::make_unique<cons
   }
 }
 
+void CheckpointFile::clear() {
+  parts_.clear();
+  bytes_.reset();
+}
+
 std::string_view CheckpointFile::part(std::string_view name) const {
   const auto found = parts_.find(name);
   if (found == parts_.end()) throw OutputError(fmt::format("its part `{}` is missing", name));

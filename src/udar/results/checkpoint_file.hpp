@@ -41,6 +41,8 @@ class CheckpointFile {
 
   /// The bytes of a part; they live as long as this. Throws OutputError where there is none of that name.
   [[nodiscard]] std::string_view part(std::string_view name) const;
+  /// Gives the memory back; no part is there any more.
+  void clear();
 
  private:
   std::unique_ptr<const std::string> bytes_;

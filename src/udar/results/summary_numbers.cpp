@@ -75,6 +75,17 @@ void add_momentum(Numbers& numbers, const MomentumSummary& m) {
   numbers.add("momentum.damping", "N s", m.damping);
 }
 
+void add_spin(Numbers& numbers, const SpinSummary& s) {
+  const std::array<std::pair<const char*, double>, 7> terms{{{"start", s.start},
+                                                             {"end", s.end},
+                                                             {"obstacles", s.obstacles},
+                                                             {"gravity", s.gravity},
+                                                             {"loads", s.loads},
+                                                             {"supports", s.supports},
+                                                             {"damping", s.damping}}};
+  for (const auto& [name, value] : terms) numbers.add(std::string("spin.") + name, "kg m^2/s", value);
+}
+
 void add_history(Numbers& numbers, const std::string& observer, const std::map<std::string, HistorySummary>& columns) {
   std::map<std::string, double> scales;  // by unit: the components of a vector have one
   for (const auto& [name, h] : columns) {
@@ -195,6 +206,7 @@ std::vector<SummaryNumber> numbers_of(const Summary& s) {
   for (const auto& [body, mass] : s.masses) numbers.add("masses." + body, "kg", mass);
   add_ledger(numbers, s.ledger);
   add_momentum(numbers, s.momentum);
+  add_spin(numbers, s.spin);
   for (const auto& [observer, columns] : s.histories) add_history(numbers, observer, columns);
   for (const auto& [name, contact] : s.contacts) add_contact(numbers, name, contact);
   return std::move(numbers.found);

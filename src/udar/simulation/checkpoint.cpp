@@ -54,6 +54,18 @@ void take(std::string_view bytes, const char* name, Field& field) {
   }
 }
 
+/// Does what takes something from a checkpoint, and says whose fault it is where that fails.
+template <class Take>
+auto use(const Checkpoint& checkpoint, Take&& take_it) {
+  try {
+    return take_it();
+  } catch (const OutputError& error) {
+    throw UserError(ExitCode::checkpoint,
+                    fmt::format("{} cannot be used: {}", RunFolder::checkpoints[checkpoint.generation], error.what()),
+                    "files of the run were changed since: run the case anew, `udar run` with its resolved.toml");
+  }
+}
+
 /// One of the files, if it is there; what is wrong with it goes to `notes`.
 std::optional<Checkpoint> try_checkpoint(const std::filesystem::path& folder, std::size_t generation,
                                          std::vector<std::string>& notes) {
@@ -72,17 +84,21 @@ std::optional<Checkpoint> try_checkpoint(const std::filesystem::path& folder, st
 }  // namespace
 
 State state_of(const Checkpoint& checkpoint, const Model& model) {
-  State state = rest_state(model);
-  for_each_field(state,
-                 [&](const char* name, auto& field) { take(checkpoint.file.part(state_part(name)), name, field); });
-  check_state(model, state);
-  return state;
+  return use(checkpoint, [&] {
+    State state = rest_state(model);
+    for_each_field(state,
+                   [&](const char* name, auto& field) { take(checkpoint.file.part(state_part(name)), name, field); });
+    check_state(model, state);
+    return state;
+  });
 }
 
 void take_up(const Checkpoint& checkpoint, Recorders& recorders) {
-  BytesIn archive(checkpoint.file.part(recorders_part));
-  archive(recorders);
-  archive.finish();
+  use(checkpoint, [&] {
+    BytesIn archive(checkpoint.file.part(recorders_part));
+    archive(recorders);
+    archive.finish();
+  });
 }
 
 Checkpoint read_checkpoint(std::string bytes, std::size_t generation) {

@@ -39,9 +39,10 @@ struct Checkpoint {
   RunSoFar run;
 };
 
-/// The state of a checkpoint. Throws OutputError where it does not fit the model of its case.
+/// The state of a checkpoint. Throws UserError (checkpoint) where it does not fit the model of its case.
 State state_of(const Checkpoint& checkpoint, const Model& model);
-/// Lets recorders go on from it: rows written since are cut off. Throws OutputError, too where files are missing.
+/// Lets recorders go on from it: rows written since are cut off. Throws UserError (checkpoint), also
+/// where files are missing.
 void take_up(const Checkpoint& checkpoint, Recorders& recorders);
 
 /// Takes a checkpoint apart. Throws OutputError with what is wrong.

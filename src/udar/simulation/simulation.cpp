@@ -74,6 +74,7 @@ Summary Simulation::run(const RunOptions& options) {
   Workspace work(model_, options.threads > 0 ? options.threads : threads_for(model_.element_count));
   state_ = options.resume != nullptr ? state_of(*options.resume, model_) : start(model_, work);
   RunOutput output(case_, model_, state_, options, work.pool);
+  if (options.resume != nullptr) options.resume->file.clear();
 
   const auto first_step = std::chrono::steady_clock::now();
   const auto so_far = [&] {

@@ -26,8 +26,9 @@ struct RunOptions {
   std::string case_text;                        ///< the case file as given, kept in the run folder
   std::string command;                          ///< how the run was asked for, for the log
   std::function<bool()> interrupted;            ///< asked before every step; true: stop with everything saved
-  /// Goes on from here instead of beginning: a checkpoint of the same case, whose run folder is `folder`.
-  const Checkpoint* resume = nullptr;
+  /// Goes on from here instead of beginning: a checkpoint of the same case, whose run folder is `folder`. Its file is
+  /// cleared once it is read.
+  Checkpoint* resume = nullptr;
 };
 
 /// A case and its run:

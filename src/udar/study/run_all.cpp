@@ -13,6 +13,7 @@
 #include "udar/results/file.hpp"
 #include "udar/results/run_folder.hpp"
 #include "udar/results/study.hpp"
+#include "udar/simulation/checkpoint.hpp"
 #include "udar/simulation/simulation.hpp"
 #include "udar/study/run_process.hpp"
 
@@ -89,8 +90,9 @@ class Queue {
       if (threads > free_cores()) return;
       const std::size_t k = waiting_.front();
       waiting_.pop_front();
-      running_.push_back(
-          {k, threads, RunProcess(words_of(input_, study_, plan_[k], threads), output_of(study_, plan_[k]))});
+      const auto words = options_.again ? words_of(input_, study_, plan_[k], threads)
+                                        : words_to_complete(input_, study_, plan_[k], threads);
+      running_.push_back({k, threads, RunProcess(words, output_of(study_, plan_[k]))});
       standings_[k] = {.state = Standing::State::running, .reason = "", .summary = {}, .part = 0};
     }
   }
@@ -208,6 +210,20 @@ std::vector<std::string> words_of(const StudyInput& input, const fs::path& folde
     }
   }
   words.insert(words.end(), {"--output", (folder / StudyFolder::runs / run.name).string(), "--force", "--no-report"});
+  if (threads > 0) words.insert(words.end(), {"--threads", std::to_string(threads)});
+  return words;
+}
+
+std::vector<std::string> words_to_complete(const StudyInput& input, const fs::path& folder, const PlannedRun& run,
+                                           int threads) {
+  const fs::path own = folder / StudyFolder::runs / run.name;
+  try {
+    std::vector<std::string> notes;
+    if (newest_checkpoint(own, notes).run.case_text != run.resolved) return words_of(input, folder, run, threads);
+  } catch (const UserError&) {
+    return words_of(input, folder, run, threads);
+  }
+  std::vector<std::string> words{"resume", own.string(), "--no-report"};
   if (threads > 0) words.insert(words.end(), {"--threads", std::to_string(threads)});
   return words;
 }

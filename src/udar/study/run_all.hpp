@@ -34,9 +34,12 @@ struct RunAllOptions {
 /// else than this run.
 Standing look_at(const std::filesystem::path& folder, const PlannedRun& run);
 
-/// The words after `udar` for a run; `threads` 0: as many as serve it.
+/// The words after `udar` that compute a run anew; `threads` 0: as many as serve it.
 std::vector<std::string> words_of(const StudyInput& input, const std::filesystem::path& folder, const PlannedRun& run,
                                   int threads);
+/// The same for one that may have been stopped on its way: from its last checkpoint, if one is whole.
+std::vector<std::string> words_to_complete(const StudyInput& input, const std::filesystem::path& folder,
+                                           const PlannedRun& run, int threads);
 
 /// Computes what is missing in processes side by side, the most costly run first; `folder` is that of the study. A run
 /// that fails does not stop the others. Throws OutputError where no process can be started.

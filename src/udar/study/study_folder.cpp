@@ -43,7 +43,7 @@ std::size_t write_commands(const StudyInput& input, const fs::path& folder, cons
   for (const PlannedRun& run : plan) {
     if (look_at(folder / StudyFolder::runs / run.name, run).state != Standing::State::missing) continue;
     text += "udar";
-    for (const std::string& word : words_of(input, folder, run, 0)) text += " " + shell_word(word);
+    for (const std::string& word : words_to_complete(input, folder, run, 0)) text += " " + shell_word(word);
     text += "\n";
     ++count;
   }
