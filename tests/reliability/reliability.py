@@ -268,7 +268,7 @@ class Trials:
             sent = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP][trial % 3]
             process = self.start(self.run_words(case, part, more))
             first = process.stdout.readline()  # it is under way
-            time.sleep(self.random.uniform(0, 0.3))
+            time.sleep(self.random.uniform(0, 0.15))
             begin = time.monotonic()
             process.send_signal(sent)
             process.communicate()
@@ -302,7 +302,7 @@ class Trials:
         for threads in [1, 2, 4, 7] if self.quick else [1, 2, 3, 4, 7, 8, 16]:
             shutil.rmtree(part, ignore_errors=True)
             process = self.start(self.run_words(case, part, [*SOME_SECONDS, "--threads", 17 - threads]))
-            timer = threading.Timer(self.random.uniform(0.1, 0.4), lambda p=process: p.send_signal(signal.SIGINT))
+            timer = threading.Timer(self.random.uniform(0.1, 0.25), lambda p=process: p.send_signal(signal.SIGINT))
             timer.start()
             process.communicate()
             timer.cancel()

@@ -9,6 +9,7 @@
 #include "udar/app/signals.hpp"
 #include "udar/app/status_line.hpp"
 #include "udar/app/terminal.hpp"
+#include "udar/base/text.hpp"
 #include "udar/report/report.hpp"
 #include "udar/results/file.hpp"
 #include "udar/results/run_folder.hpp"
@@ -109,7 +110,7 @@ void print_result(const Summary& s, const fs::path& folder, const Made& made) {
   for (std::size_t k = told_as_error ? 1 : 0; k < s.reasons.size(); ++k) say("  {}\n", s.reasons[k]);
   for (const std::string& warning : s.warnings) say("  warning: {}\n", warning);
   for (const std::string& note : made.notes) say("  {}\n", note);
-  if (has_checkpoint(folder)) say("  it can go on from here: udar resume {}\n", folder.string());
+  if (has_checkpoint(folder)) say("  it can go on from here: udar resume {}\n", shell_word(folder.string()));
   std::error_code error;
   const std::string_view picture = made.report ? RunFolder::report : RunFolder::final_picture;
   if (fs::exists(folder / picture, error)) say("  look at {} in a browser", picture);
