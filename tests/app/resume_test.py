@@ -116,12 +116,25 @@ class Resume(unittest.TestCase):
         try:
             while not (self.folder / "r/checkpoint_a.bin").exists():
                 time.sleep(0.01)
-            for words in [["resume", "r"], ["run", "a.toml", "--output", "r", "--force"]]:
+            for words in [["resume", "r"], ["run", "a.toml", "--output", "r"], ["run", "a.toml", "--output", "r", "--force"]]:
                 _, err = self.udar(*words, code=2)
                 self.assertIn("a run that is under way writes to `r`", err)
         finally:
             process.kill()
             process.communicate()
+
+    def test_a_run_that_failed_would_fail_again(self):
+        self.udar("run", "a.toml", "--no-report", "--output", "r", "--set", "bodies.block.velocity=[\"0 m/s\", \"-5 km/s\"]", "--set",
+                  "run.stop_at_energy_error=1e-6", code=5)
+        _, err = self.udar("resume", "r", code=5)
+        self.assertIn("the run in `r` failed: it would fail again", err)
+        self.assertIn("log.txt", err)
+
+    def test_without_the_frames(self):
+        self.interrupted("--set", 'output.fields_every="1 ms"')
+        shutil.rmtree(self.folder / "r/fields")
+        self.udar("resume", "r", "--no-report")
+        self.assertTrue(any((self.folder / "r/fields").iterdir()))
 
     def test_bad_interval(self):
         for value in ["0 s", "often", "5 m"]:

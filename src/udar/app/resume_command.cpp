@@ -30,12 +30,12 @@ struct ResumeArguments {
   int threads = 0;
 };
 
-bool is_complete(const fs::path& folder) {
+/// Why the run stopped; "" where it was killed, or goes on.
+std::string stop_reason_of(const fs::path& folder) {
   try {
-    const std::string reason = read_summary(folder / RunFolder::summary).stop_reason;
-    return reason == "end_time" || reason == "numerical";
+    return read_summary(folder / RunFolder::summary).stop_reason;
   } catch (const OutputError&) {
-    return false;  // killed, or stopped before
+    return "";
   }
 }
 
@@ -69,12 +69,19 @@ Summary compute(const ResumeArguments& arguments, RunOptions& options, bool& rep
 
 ExitCode resume(const ResumeArguments& arguments) {
   check_run_folder(arguments.folder);
-  if (is_complete(arguments.folder)) {
+  RunFolder folder = reopen_run_folder(arguments.folder);  // not one that is under way
+  const std::string reason = stop_reason_of(arguments.folder);
+  if (reason == "numerical") {
+    throw UserError(ExitCode::numerical, fmt::format("the run in `{}` failed: it would fail again", arguments.folder),
+                    "log.txt there says why; change the case and run it anew");
+  }
+  if (reason == "end_time") {
     // One that was killed at its very end may have left some.
-    CheckpointKeeper(reopen_run_folder(arguments.folder), std::nullopt, nullptr).remove();
+    CheckpointKeeper(folder, std::nullopt, nullptr).remove();
     say("{}: the run is complete, there is nothing to resume\n", arguments.folder);
     return ExitCode::done;
   }
+  folder.lock.reset();  // the run takes it again
   RunOptions options;
   bool report = false;
   const Summary summary = compute(arguments, options, report);

@@ -108,9 +108,12 @@ std::string RunFolder::frame_name(std::string_view part, int frame) {
 
 RunFolder create_run_folder(const fs::path& path, bool force) {
   refuse_link(path);
+  std::error_code error;
+  std::shared_ptr<const FolderLock> lock;
+  if (fs::is_directory(path, error)) lock = std::make_shared<const FolderLock>(path);
   check_free(path, force);
   make_folder(path);
-  auto lock = std::make_shared<const FolderLock>(path);
+  if (!lock) lock = std::make_shared<const FolderLock>(path);
   refuse_link(path / RunFolder::fields);
   refuse_link(path / RunFolder::histories);
   remove_own(path, is_own_top_file);
@@ -130,7 +133,9 @@ RunFolder reopen_run_folder(const fs::path& path) {
   }
   refuse_link(path / RunFolder::fields);
   refuse_link(path / RunFolder::histories);
-  return {path, std::make_shared<const FolderLock>(path)};
+  auto lock = std::make_shared<const FolderLock>(path);
+  make_folder(path / RunFolder::fields);  // who removed the frames to save room does without them
+  return {path, std::move(lock)};
 }
 
 std::string safe_name(std::string_view text) {

@@ -20,8 +20,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// What another machine, another number of threads or another day changes.
-constexpr std::array<std::string_view, 7> of_the_machine{
-    "version", "started", "machine", "threads", "wall_seconds", "stepping_seconds", "element_steps_per_second"};
+constexpr std::array<std::string_view, 8> of_the_machine{
+    "version", "started",      "machine",          "threads",
+    "resumed", "wall_seconds", "stepping_seconds", "element_steps_per_second"};
 
 std::string joined(const std::string& path, const std::string& name) { return path.empty() ? name : path + "." + name; }
 
