@@ -63,6 +63,10 @@ SOME_SECONDS = ["--set", 'bodies.beam.mesh.element_size="5 mm"', "--set", 'outpu
                 "--set", 'output.fields_every="50 us"']
 
 
+# AddressSanitizer wants to be loaded first; that ours is does no harm.
+PRELOAD = {"ASAN_OPTIONS": "verify_asan_link_order=0"}
+
+
 class Failure(Exception):
     """What is not as it has to be."""
 
@@ -109,7 +113,7 @@ class Trials:
     def start(self, words, fault=None, **more):
         environment = dict(os.environ, **more)
         if fault:
-            environment.update(LD_PRELOAD=str(self.faults), UDAR_FAULT=fault)
+            environment.update(PRELOAD, LD_PRELOAD=str(self.faults), UDAR_FAULT=fault)
         return subprocess.Popen([self.program, *map(str, words)], cwd=self.folder, env=environment,
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
@@ -178,7 +182,7 @@ class Trials:
         (self.folder / "few.toml").write_text(FEW_STEPS)
         whole = self.folder / "few"
         counter = self.folder / "calls"
-        self.call(self.run_words("few.toml", whole), UDAR_FAULT_COUNT=str(counter), LD_PRELOAD=str(self.faults))
+        self.call(self.run_words("few.toml", whole), UDAR_FAULT_COUNT=str(counter), LD_PRELOAD=str(self.faults), **PRELOAD)
         return whole, int(counter.read_text())
 
     def numbers(self, calls, sample):
