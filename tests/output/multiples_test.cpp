@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <initializer_list>
+#include <limits>
 
 #include "udar/base/compensated_sum.hpp"
 
@@ -30,6 +31,15 @@ TEST_CASE("without an interval nothing is ever due") {
   Multiples multiples(0);
   CHECK_FALSE(multiples.reached(0));
   CHECK_FALSE(multiples.reached(1e9));
+}
+
+TEST_CASE("an interval of next to nothing, and a time that is none, are no more than often") {
+  Multiples tiny(1e-300);
+  CHECK(tiny.reached(1));
+  CHECK_FALSE(tiny.reached(1e9));
+  Multiples multiples(1e-6);
+  CHECK(multiples.reached(1e300));
+  CHECK_FALSE(multiples.reached(std::numeric_limits<double>::quiet_NaN()));
 }
 
 TEST_CASE("steps as long as the interval meet every multiple, whatever rounding does to the sum") {

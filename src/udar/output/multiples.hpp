@@ -15,7 +15,9 @@ class Multiples {
   bool reached(double time) {
     if (!(interval_ > 0)) return false;
     // A hair early counts: k times the interval and a sum of steps round differently.
-    const auto count = static_cast<std::uint64_t>(time / interval_ * (1 + 1e-12) + 1e-9) + 1;
+    const double ratio = time / interval_ * (1 + 1e-12) + 1e-9;
+    constexpr double most = 1e18;  // of an interval of next to nothing, or of a time that is none
+    const auto count = static_cast<std::uint64_t>(ratio < most ? ratio : most) + 1;
     const bool more = count > done_;
     if (more) done_ = count;
     return more;
