@@ -132,8 +132,7 @@ class Trials:
         """Goes on with what is there, or from the start where there is no checkpoint, and compares all files."""
         threads = self.random.choice([1, 2, 3])
         words = ["resume", part, "--no-report", "--threads", threads]
-        codes = [self.call(words, (0, 2, 8))[0]] if (self.folder / part).exists() else [2]
-        resumed = codes[0] == 0
+        resumed = (self.folder / part).exists() and self.call(words, (0, 2, 8))[0] == 0
         if not resumed:
             self.call(self.run_words(case, part, more))
         found = differences(whole, self.folder / part)
@@ -150,7 +149,6 @@ class Trials:
         wanted = 10 if self.quick else 200
         while self.counts.get("kills at random moments", 0) < wanted:
             self.one_story_of_kills(case, whole)
-        self.count("runs that came to their end after it", 0)
 
     def one_story_of_kills(self, case, whole):
         part = self.folder / "part"
@@ -297,7 +295,7 @@ class Trials:
         self.count("closed pipes (SIGPIPE)")
 
     def another_thread_count(self):
-        """Every checkpoint of a run, on other thread counts."""
+        """Runs that were interrupted at a random moment go on on another number of threads."""
         case = self.source / "cases/short-beam/short-beam.toml"
         whole = self.folder / "whole"
         if not whole.exists():

@@ -44,6 +44,14 @@ TEST_CASE("a folder of a run that was killed in its first moment is as good as a
   }
 }
 
+TEST_CASE("a run folder that is a link is neither made nor taken up again") {
+  const Scratch scratch;
+  create_run_folder(scratch / "run", false);
+  fs::create_directory_symlink(scratch / "run", scratch / "link");
+  CHECK(contains(message_of<UserError>([&] { create_run_folder(scratch / "link", true); }), "is a link"));
+  CHECK(contains(message_of<UserError>([&] { reopen_run_folder(scratch / "link"); }), "is a link"));
+}
+
 TEST_CASE("results are not replaced without force") {
   const Scratch scratch;
   make_run(scratch / "run");

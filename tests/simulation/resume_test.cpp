@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <map>
 
+#include "tests/results/folder_content.hpp"
 #include "tests/results/scratch.hpp"
 #include "tests/simulation/example.hpp"
-#include "udar/results/file.hpp"
 #include "udar/results/run_folder.hpp"
 #include "udar/simulation/checkpoint.hpp"
 #include "udar/simulation/simulation.hpp"
@@ -19,20 +19,14 @@ namespace fs = std::filesystem;
 
 /// Every file below `folder` with its bytes, but for what tells of the clock.
 std::map<std::string, std::string> results_of(const fs::path& folder) {
-  std::map<std::string, std::string> all;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    const std::string name = fs::relative(entry.path(), folder).string();
-    if (!entry.is_regular_file() || name == RunFolder::log) continue;
-    if (name != RunFolder::summary) {
-      all[name] = read_file(entry.path(), 1 << 26);
-      continue;
-    }
-    Summary s = read_summary(entry.path());
-    s.started = "";
-    s.threads = s.resumed = 0;
-    s.wall_seconds = s.stepping_seconds = s.element_steps_per_second = 0;
-    all[name] = to_json(s);
-  }
+  std::map<std::string, std::string> all = content_of(folder);
+  all.erase(std::string(RunFolder::log));
+  std::string& summary = all.at(std::string(RunFolder::summary));
+  Summary s = summary_from_json(summary);
+  s.started = "";
+  s.threads = s.resumed = 0;
+  s.wall_seconds = s.stepping_seconds = s.element_steps_per_second = 0;
+  summary = to_json(s);
   return all;
 }
 

@@ -4,9 +4,9 @@
 
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <thread>
 
+#include "tests/results/folder_content.hpp"
 #include "tests/results/scratch.hpp"
 #include "tests/simulation/example.hpp"
 #include "udar/results/file.hpp"
@@ -21,15 +21,6 @@ namespace udar {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Every file below `folder` with its bytes.
-std::map<std::string, std::string> content_of(const fs::path& folder) {
-  std::map<std::string, std::string> all;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file()) all[fs::relative(entry.path(), folder).string()] = read_file(entry.path(), 1 << 26);
-  }
-  return all;
-}
 
 bool all_finite(const State& state) {
   bool finite = true;

@@ -126,6 +126,7 @@ RunFolder create_run_folder(const fs::path& path, bool force) {
 }
 
 RunFolder reopen_run_folder(const fs::path& path) {
+  refuse_link(path);
   std::error_code error;
   if (!fs::is_regular_file(fs::symlink_status(path / RunFolder::marker, error))) {
     throw UserError(ExitCode::usage, fmt::format("`{}` is not the folder of a run", path.string()),

@@ -71,20 +71,9 @@ void for_each_member(T& s, Visit visit) {
   visit("error", s.error);
 }
 
-template <Is<MomentumSummary> T, class Visit>
-void for_each_member(T& s, Visit visit) {
-  visit("start", s.start);
-  visit("end", s.end);
-  visit("obstacles", s.obstacles);
-  visit("gravity", s.gravity);
-  visit("loads", s.loads);
-  visit("supports", s.supports);
-  visit("damping", s.damping);
-  visit("error", s.error);
-}
-
-template <Is<SpinSummary> T, class Visit>
-void for_each_member(T& s, Visit visit) {
+/// Of momentum and of spin.
+template <class T, class Visit>
+requires(Is<T, MomentumSummary> || Is<T, SpinSummary>) void for_each_member(T& s, Visit visit) {
   visit("start", s.start);
   visit("end", s.end);
   visit("obstacles", s.obstacles);

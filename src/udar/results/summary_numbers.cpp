@@ -65,25 +65,16 @@ void add_ledger(Numbers& numbers, const LedgerSummary& l) {
   for (const auto& [name, value] : terms) numbers.add(std::string("ledger.") + name, "J", value);
 }
 
-void add_momentum(Numbers& numbers, const MomentumSummary& m) {
-  numbers.add("momentum.start", "N s", m.start);
-  numbers.add("momentum.end", "N s", m.end);
-  numbers.add("momentum.obstacles", "N s", m.obstacles);
-  numbers.add("momentum.gravity", "N s", m.gravity);
-  numbers.add("momentum.loads", "N s", m.loads);
-  numbers.add("momentum.supports", "N s", m.supports);
-  numbers.add("momentum.damping", "N s", m.damping);
-}
-
-void add_spin(Numbers& numbers, const SpinSummary& s) {
-  const std::array<std::pair<const char*, double>, 7> terms{{{"start", s.start},
-                                                             {"end", s.end},
-                                                             {"obstacles", s.obstacles},
-                                                             {"gravity", s.gravity},
-                                                             {"loads", s.loads},
-                                                             {"supports", s.supports},
-                                                             {"damping", s.damping}}};
-  for (const auto& [name, value] : terms) numbers.add(std::string("spin.") + name, "kg m^2/s", value);
+/// Of momentum or of spin, without its error.
+template <class Balance>
+void add_balance(Numbers& numbers, const std::string& name, const std::string& unit, const Balance& b) {
+  numbers.add(name + ".start", unit, b.start);
+  numbers.add(name + ".end", unit, b.end);
+  numbers.add(name + ".obstacles", unit, b.obstacles);
+  numbers.add(name + ".gravity", unit, b.gravity);
+  numbers.add(name + ".loads", unit, b.loads);
+  numbers.add(name + ".supports", unit, b.supports);
+  numbers.add(name + ".damping", unit, b.damping);
 }
 
 void add_history(Numbers& numbers, const std::string& observer, const std::map<std::string, HistorySummary>& columns) {
@@ -205,8 +196,8 @@ std::vector<SummaryNumber> numbers_of(const Summary& s) {
   numbers.add("deepest_penetration.time", "s", s.deepest_penetration.time);
   for (const auto& [body, mass] : s.masses) numbers.add("masses." + body, "kg", mass);
   add_ledger(numbers, s.ledger);
-  add_momentum(numbers, s.momentum);
-  add_spin(numbers, s.spin);
+  add_balance(numbers, "momentum", "N s", s.momentum);
+  add_balance(numbers, "spin", "kg m^2/s", s.spin);
   for (const auto& [observer, columns] : s.histories) add_history(numbers, observer, columns);
   for (const auto& [name, contact] : s.contacts) add_contact(numbers, name, contact);
   return std::move(numbers.found);
