@@ -2,6 +2,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <array>
 #include <string>
 
 #include "fuzz/target.hpp"
@@ -84,36 +85,15 @@ void check_table(std::string_view text) {
 
 }  // namespace
 
-/// The first byte chooses the reader, the others are the file.
+/// The first byte chooses the reader, by its letter or by its number; the others are the file.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
-  const std::string_view text = fuzz::text_of(data + 1, size - 1);
+  constexpr std::string_view letters = "vwpcjst";
+  constexpr std::array readers{check_frame,   check_part_of_frame, check_index, check_history,
+                               check_summary, check_study,         check_table};
+  const std::size_t letter = letters.find(static_cast<char>(data[0]));
   try {
-    switch (data[0]) {
-      case 'v':
-        check_frame(text);
-        break;
-      case 'w':
-        check_part_of_frame(text);
-        break;
-      case 'p':
-        check_index(text);
-        break;
-      case 'c':
-        check_history(text);
-        break;
-      case 'j':
-        check_summary(text);
-        break;
-      case 's':
-        check_study(text);
-        break;
-      case 't':
-        check_table(text);
-        break;
-      default:
-        break;
-    }
+    readers[letter == std::string_view::npos ? data[0] % readers.size() : letter](fuzz::text_of(data + 1, size - 1));
   } catch (const OutputError& error) {
     fuzz::require(error.what()[0] != '\0');
   } catch (const UserError& error) {

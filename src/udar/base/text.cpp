@@ -32,6 +32,8 @@ std::string nearest_word(std::string_view word, std::span<const std::string> can
   std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
     if (candidate.size() > longest) continue;
+    const std::size_t added = std::max(word.size(), candidate.size()) - std::min(word.size(), candidate.size());
+    if (added >= best_distance) continue;
     const std::size_t distance = alignment_distance(word, candidate);
     if (distance < best_distance) {
       best_distance = distance;

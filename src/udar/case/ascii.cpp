@@ -114,14 +114,14 @@ class Converter {
       if ((where_ == Where::basic && c == '"') || (where_ == Where::literal && c == '\'')) where_ = Where::code;
       close_long(where_ == Where::long_basic ? '"' : '\'', rest);
       if (double_quotes && c == '\\') {
-        put(std::string(1, c));
+        put({&c, 1});
         ++at_;
         escaped_ = true;
         return;
       }
     }
     escaped_ = false;
-    put(std::string(1, c));
+    put({&c, 1});
     ++at_;
     if (c == '\n') next_line();
   }
@@ -137,11 +137,11 @@ class Converter {
 
   /// Takes over the next quotes of a row; the last one is left to the caller.
   void put_more(int count) {
-    for (int i = 0; i < count; ++i, ++at_, ++column_) put(std::string(1, text_[at_]));
+    for (int i = 0; i < count; ++i, ++at_, ++column_) put(text_.substr(at_, 1));
   }
 
-  void put(const std::string& ascii_text) {
-    for (std::size_t i = 0; i < ascii_text.size(); ++i) user_columns_.push_back(column_);
+  void put(std::string_view ascii_text) {
+    user_columns_.insert(user_columns_.end(), ascii_text.size(), column_);
     line_is_ascii_ = line_is_ascii_ && static_cast<unsigned char>(text_[at_]) < 0x80;
     out_.text += ascii_text;
   }
