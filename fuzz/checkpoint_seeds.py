@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Writes the checkpoints with which the fuzzer of checkpoints begins anew: after a change of State or of what recorders
-carry the old ones would only be refused.
+"""Writes the checkpoints with which the fuzzer of checkpoints begins anew, and those that once broke something: after a
+change of State or of what recorders carry the old ones would only be refused.
 
 usage: fuzz/checkpoint_seeds.py [BUILD_FOLDER]     (a release build; build/release if left out)
 """
@@ -33,10 +33,16 @@ def without_frames(whole):
     return out
 
 
+def without_end(checkpoint):
+    """The next step ends at a time of which no integer counts the intervals between two rows."""
+    next_step = checkpoint.index(b"state/clock") + len(b"state/clock") + 6 * 8
+    return checkpoint[:next_step] + struct.pack("<d", 1.4798596857787188e60) + checkpoint[next_step + 8:]
+
+
 def main():
     build = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/release").resolve()
     case = re.search(r'R"\((.*?)\)";', (ROOT / "fuzz/checkpoint.cpp").read_text(), re.DOTALL).group(1)
-    for old in OUT.glob("seed-*"):
+    for old in OUT.glob("*"):
         old.unlink()
     with tempfile.TemporaryDirectory() as folder:
         (pathlib.Path(folder) / "a.toml").write_text(case)
@@ -48,6 +54,7 @@ def main():
             for name in "ab":
                 bytes_of = (pathlib.Path(folder) / f"r/checkpoint_{name}.bin").read_bytes()
                 (OUT / f"seed-{call}{name}").write_bytes(without_frames(bytes_of))
+    (OUT / "found-time-without-end").write_bytes(without_end((OUT / "seed-2560a").read_bytes()))
 
 
 if __name__ == "__main__":

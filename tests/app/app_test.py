@@ -397,7 +397,7 @@ mesh = {{ shape = "rectangle", size = ["1 cm", "1 cm"], at = ["{k * 1.0001} cm",
             self.assertIsNotNone(summary[number])
         frames = re.findall(r'timestep="([^"]*)"', (self.folder / "runs/block/fields.pvd").read_text())
         self.assertEqual(float(frames[-1]), summary["end_time"])
-        self.assertIn("limits the step: block element", (self.folder / "runs/block/final.svg").read_text())
+        self.assertIn("failed: block element", (self.folder / "runs/block/final.svg").read_text())
         self.assertIn("stopped by: numerical", (self.folder / "runs/block/log.txt").read_text())
         for part in (" of body `block`", " m", " at t = ", "Likely cause: ", "Cure: "):
             self.assertIn(part, err)

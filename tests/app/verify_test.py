@@ -159,8 +159,12 @@ class Verify(unittest.TestCase):
     def test_output_folder(self):
         self.run_program("verify", "integrators", "--output", "out", "--brief")
         self.assertTrue((self.folder / "out/pictures/verification-integrators-1.svg").exists())
-        # An earlier verification is replaced, with its pictures.
-        self.run_program("verify", "simple-shear", "--output", "out", "--brief")
+        # An earlier verification is replaced, with its pictures, where that is wanted.
+        _, err = self.run_program("verify", "simple-shear", "--output", "out", code=2)
+        self.assertIn("`out` holds an earlier verification", err)
+        self.assertIn("--force", err)
+        self.assertTrue((self.folder / "out/pictures/verification-integrators-1.svg").exists())
+        self.run_program("verify", "simple-shear", "--output", "out", "--brief", "--force")
         self.assertFalse((self.folder / "out/pictures/verification-integrators-1.svg").exists())
         # Anything else is not, and that is told before something is computed.
         (self.folder / "other").mkdir()

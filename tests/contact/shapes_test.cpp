@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "udar/base/error.hpp"
@@ -129,6 +130,49 @@ TEST_CASE("the foot of a point lies on the boundary") {
     for (const Vec2 p : places(ready)) {
       const Gap found = gap(ready, p);
       CHECK(std::fabs(gap(ready, p - found.distance * found.normal).distance) < 1e-12);
+    }
+  }
+}
+
+TEST_CASE("the inner radius is the depth of the deepest point") {
+  CHECK(std::isinf(inner_radius(prepare(shapes[0]))));
+  CHECK(inner_radius(prepare(Rectangle{.at = {-1, -2}, .size = {3, 1}})) == doctest::Approx(0.5).epsilon(1e-9));
+  CHECK(inner_radius(prepare(Circle{.centre = {1, -1}, .radius = 2})) == 2);
+  // Of a triangle: twice the area over the circumference.
+  const Polygon triangle{.points = {{0, 0}, {3, 0}, {0, 4}}};
+  CHECK(inner_radius(prepare(triangle)) == doctest::Approx(1).epsilon(1e-9));
+  for (const Shape& shape : {Shape(stop), Shape(sliver), Shape(hexagon)}) {
+    const PreparedShape prepared = prepare(shape);
+    const Box box = bounds(prepared);
+    double deepest = 0;
+    for (int i = 0; i <= 400; ++i) {
+      for (int k = 0; k <= 400; ++k) {
+        const Vec2 p{box.low.x + i * box.size().x / 400, box.low.y + k * box.size().y / 400};
+        deepest = std::max(deepest, -gap(prepared, p).distance);
+      }
+    }
+    CHECK(deepest <= inner_radius(prepared) * (1 + 1e-9));
+    // The nearest of the points tried is half a diagonal of their net away.
+    CHECK(deepest >= inner_radius(prepared) - 0.5 * length(box.size()) / 400);
+  }
+}
+
+TEST_CASE("a way from one place outside to another crosses a shape where a point of it is inside") {
+  for (const Shape& shape : shapes) {
+    const PreparedShape prepared = prepare(shape);
+    const auto holds = [&](Vec2 p) { return std::visit([&](const auto& s) { return s.holds(p); }, prepared); };
+    std::vector<Vec2> outside = places(prepared);
+    std::erase_if(outside, holds);
+    for (std::size_t i = 1; i < outside.size(); ++i) {
+      const Vec2 from = outside[i - 1];
+      const Vec2 to = outside[i];
+      double nearest = std::numeric_limits<double>::infinity();
+      for (int k = 0; k <= 2000; ++k) {
+        nearest = std::min(nearest, gap(prepared, from + (k / 2000.0) * (to - from)).distance);
+      }
+      const bool crossed = std::visit([&](const auto& s) { return s.is_crossed(from, to); }, prepared);
+      if (nearest < 0) CHECK(crossed);
+      if (crossed) CHECK(nearest <= 0.5 * length(to - from) / 2000);
     }
   }
 }

@@ -126,14 +126,15 @@ TEST_CASE("errors are drawn where they have an order; three panels a picture") {
 TEST_CASE("a folder that holds something else is left alone") {
   const Scratch scratch;
   const std::filesystem::path folder = scratch / "out";
-  CHECK_NOTHROW(check_verification_folder(folder));
+  CHECK_NOTHROW(check_verification_folder(folder, false));
   write_verification(folder, small());
-  CHECK_NOTHROW(check_verification_folder(folder));
+  CHECK_THROWS_AS(check_verification_folder(folder, false), UserError);
+  CHECK_NOTHROW(check_verification_folder(folder, true));
   write_verification(folder, small());  // again
   std::size_t pictures = 0;
   for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder / "pictures")) ++pictures;
   CHECK(pictures == 2);
   CHECK(read_file(folder / "verification.html", 1 << 20) == verification_html(small()));
-  CHECK_THROWS_AS(check_verification_folder(folder / "pictures"), UserError);
-  CHECK_THROWS_AS(check_verification_folder(folder / "verify.json"), UserError);
+  CHECK_THROWS_AS(check_verification_folder(folder / "pictures", true), UserError);
+  CHECK_THROWS_AS(check_verification_folder(folder / "verify.json", true), UserError);
 }

@@ -77,6 +77,7 @@ static_assert(sizeof(SpringState) ==
 static_assert(sizeof(BodyTouch) == 4 * sizeof(std::uint32_t) + 4 * sizeof(double) + sizeof(SpringState));
 static_assert(sizeof(ForceBook) == 4 * sizeof(Vec2) + 3 * sizeof(CompensatedSum) + sizeof(double));
 static_assert(sizeof(ContactBook) == 2 * sizeof(ForceBook) + sizeof(std::uint64_t));
+static_assert(sizeof(Sinking) == 2 * sizeof(double) + sizeof(std::uint64_t));
 static_assert(sizeof(DeepestTouch) ==
               3 * sizeof(double) + sizeof(Vec2) + 2 * sizeof(std::uint32_t) + sizeof(std::uint64_t));
 static_assert(sizeof(PairBook) == 2 * sizeof(Index) + sizeof(ContactBook));

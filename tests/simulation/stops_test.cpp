@@ -135,6 +135,9 @@ TEST_CASE("a numerical failure leaves a whole folder with the last good state") 
   CHECK(hash_of(simulation.state()) == hash);
   CHECK(all_finite(simulation.state()));
   check_whole(folder / "run", s, simulation.state());
+  // The picture marks what the message names.
+  const std::string words = s.reasons[0].substr(0, s.reasons[0].find(" of body"));
+  CHECK(contains(read_file(folder / "run/final.svg", 1 << 24), "failed: block " + words));
 }
 
 TEST_CASE("without a folder a failure is told the same way") {
@@ -171,6 +174,14 @@ TEST_CASE("when_unstable = continue: the step stays, the verdict is never good")
   const Summary s = Simulation(tight_block(WhenUnstable::carry_on)).run();
   CHECK(s.verdict != "good");
   CHECK(s.time_step.shortened_steps > 0);
+}
+
+TEST_CASE("when_unstable = continue: the step is what is blamed for a failure") {
+  Case input = tight_block(WhenUnstable::carry_on);
+  input.bodies[0].velocity = {0, -500};
+  const Summary s = Simulation(input).run();
+  REQUIRE(s.stop_reason == "numerical");
+  CHECK(contains(s.reasons.at(0), "times the stable limit, which when_unstable = \"continue\" lets it"));
 }
 
 TEST_CASE("a fixed step above the limit at the start is refused, whatever comes later") {

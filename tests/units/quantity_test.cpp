@@ -101,6 +101,8 @@ TEST_CASE("an unknown unit is answered with the nearest one") {
   CHECK(has(complaint("80 mpa", dimension::stress), "did you mean \"80 MPa\"?"));
   CHECK(has(complaint("80 Gpa", dimension::stress), "did you mean \"80 GPa\"?"));
   CHECK(has(complaint("80 kfg/cm^2", dimension::stress), "did you mean \"80 kgf/cm^2\"?"));
+  CHECK(has(complaint("80 kfg/Cm^2", dimension::stress), "did you mean \"80 kgf/cm^2\"?"));
+  CHECK(has(complaint("80 kfg/ cm\t]", dimension::stress), "did you mean `kgf`?"));
   CHECK(has(complaint("80 parsec", dimension::length), "unknown unit `parsec`"));
   CHECK(has(complaint("5 Hz", dimension::spin), "unknown unit `Hz`"));
 }

@@ -38,8 +38,7 @@ TEST_CASE("bounds belong to what holds, except for below and above") {
   CHECK_FALSE(checks.between("t", 2.001, 1, 2));
   CHECK(checks.holds("h", true));
   CHECK_FALSE(checks.holds("h", false));
-  CheckCount count;
-  count.add(part);
+  const CheckCount count = count_of(VerifiedProblem{.id = "p", .parts = {part}});
   CHECK(count.held == 11);
   CHECK(count.all == 21);
 }
@@ -110,6 +109,30 @@ TEST_CASE("rows keep their setting and stand together by their names") {
   CHECK(groups[0][0]->setting == "coarse");
   CHECK(groups[0][1]->setting == "fine");
   CHECK(groups[1][0]->what == "symmetry");
+}
+
+TEST_CASE("what a long part repeats of a quick one counts once") {
+  const CheckRow coarse{.kind = CheckKind::relative,
+                        .setting = "10",
+                        .what = "force",
+                        .computed = 1.1,
+                        .exact = 1,
+                        .error = 0.1,
+                        .bound = 0.2,
+                        .holds = true};
+  CheckRow fine = coarse;
+  fine.setting = "20";
+  CheckRow another = coarse;
+  another.computed = std::nextafter(1.1, 2);
+  another.holds = false;
+  const CheckRow words{.kind = CheckKind::holds, .what = "mirror symmetry", .holds = true};
+  const VerifiedPart quick{.name = "quick", .rows = {coarse, coarse, words}};
+  const VerifiedPart more{.name = "long", .is_long = true, .rows = {coarse, fine, another, words}};
+  const CheckCount count = count_of(VerifiedProblem{.id = "p", .parts = {quick, more}});
+  CHECK(count.all == 6);  // all but the coarse one of the long part: words may be about something else
+  CHECK(count.held == 5);
+  const Verification twice{.problems = {{.id = "p", .parts = {quick}}, {.id = "q", .parts = {quick}}}};
+  CHECK(count_of(twice).all == 6);
 }
 
 TEST_CASE("the words of a row") {

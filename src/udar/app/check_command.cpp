@@ -14,6 +14,7 @@
 #include "udar/output/frame_writer.hpp"
 #include "udar/output/run_pictures.hpp"
 #include "udar/output/summarise.hpp"
+#include "udar/output/thin_obstacles.hpp"
 #include "udar/report/drawing.hpp"
 #include "udar/simulation/last_good.hpp"
 #include "udar/simulation/simulation.hpp"
@@ -210,6 +211,7 @@ ExitCode describe_case(const CheckArguments& check) {
   const Model& model = simulation.model();
   Workspace work(model, threads_for(model.element_count));
   State state = start(model, work);
+  for (Diagnostic& warning : obstacles_too_thin(model, state)) warnings.push_back(std::move(warning));
   print_warnings(warnings);
   if (!check.picture.empty()) {
     const std::string title = std::filesystem::path(arguments.file).stem().string();

@@ -40,6 +40,7 @@ struct Arguments {
   int cores = 0;
   double bounds = 1;
   bool list = false;
+  bool force = false;
   bool brief = false;
   bool with_long = false;
   bool only_long = false;
@@ -126,7 +127,7 @@ ExitCode verify(const Arguments& arguments) {
   if (problems.empty()) {
     throw UserError(ExitCode::usage, "these problems have no long parts", "leave out `--only-long`");
   }
-  if (!arguments.output.empty()) check_verification_folder(arguments.output);
+  if (!arguments.output.empty()) check_verification_folder(arguments.output, arguments.force);
   catch_signals();
   const Verification all = run_all(arguments, std::move(problems));
   if (!arguments.output.empty()) {
@@ -160,6 +161,7 @@ Command add_verify(CLI::App& app) {
       ->add_option("--output", arguments->output,
                    "Folder for verification.html, verification.md with its pictures, and verify.json")
       ->type_name("DIR");
+  words->add_flag("--force", arguments->force, "Replace an earlier verification in that folder");
   words
       ->add_option("--cores", arguments->cores,
                    "How many parts are computed at a time; else as many as there are cores")

@@ -25,10 +25,16 @@ struct Box {
   [[nodiscard]] constexpr bool meets(const Box& b) const {
     return low.x <= b.high.x && b.low.x <= high.x && low.y <= b.high.y && b.low.y <= high.y;
   }
+  /// The smallest box that holds both.
+  [[nodiscard]] constexpr Box joined(const Box& b) const {
+    return {{std::min(low.x, b.low.x), std::min(low.y, b.low.y)},
+            {std::max(high.x, b.high.x), std::max(high.y, b.high.y)}};
+  }
   /// The box with `margin` more on every side.
   [[nodiscard]] constexpr Box grown(double margin) const {
     return {low - Vec2{margin, margin}, high + Vec2{margin, margin}};
   }
+  [[nodiscard]] constexpr Box shifted(Vec2 by) const { return {low + by, high + by}; }
   [[nodiscard]] constexpr Vec2 size() const { return high - low; }
 };
 

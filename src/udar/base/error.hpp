@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -47,10 +48,19 @@ class UserError : public std::runtime_error {
   std::vector<Diagnostic> diagnostics;
 };
 
+/// In what a computation failed.
+struct Culprit {
+  enum Kind { unknown, node, element };
+  Kind kind = unknown;
+  std::uint32_t number = 0;  ///< in Model
+};
+
 /// The computation cannot go on: inverted element, not-a-number, unstable step. Says where, when, why and what to do.
 class NumericalError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit NumericalError(const std::string& text, Culprit in = {}) : std::runtime_error(text), culprit(in) {}
+
+  Culprit culprit;
 };
 
 /// A file could not be written or read completely. Nothing that was there before is lost.

@@ -28,6 +28,7 @@ void add_obstacles(Model& model, const Case& input) {
                       .shape = from.shape,
                       .prepared = prepared,
                       .bounds = bounds(prepared),
+                      .inner_radius = inner_radius(prepared),
                       .friction = from.friction,
                       .velocity = from.velocity,
                       .normal_stiffness = {},

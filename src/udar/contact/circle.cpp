@@ -1,5 +1,6 @@
 #include "udar/contact/circle.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "udar/base/error.hpp"
@@ -11,6 +12,13 @@ PreparedCircle Circle::prepared() const {
     throw UserError(ExitCode::bad_case, "the radius of a circle must be above 0, and its centre finite");
   }
   return {centre, radius};
+}
+
+bool PreparedCircle::is_crossed(Vec2 from, Vec2 to) const {
+  const Vec2 way = to - from;
+  const double square = dot(way, way);
+  const double nearest = square > 0 ? std::clamp(dot(centre - from, way) / square, 0.0, 1.0) : 0;
+  return holds(from + nearest * way);
 }
 
 std::vector<Polyline> PreparedCircle::outline(const Box& /*view*/) const {

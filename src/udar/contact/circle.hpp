@@ -20,6 +20,9 @@ struct PreparedCircle {
     return {r - radius, r > 0 ? (1 / r) * from_centre : Vec2{0, 1}, 0};
   }
   [[nodiscard]] bool holds(Vec2 p) const { return dot(p - centre, p - centre) <= radius * radius; }
+  [[nodiscard]] double inner_radius() const { return radius; }
+  /// Does the straight way from one place to another, both outside, lead through it?
+  [[nodiscard]] bool is_crossed(Vec2 from, Vec2 to) const;
   /// A closed polygon of 96 sides.
   [[nodiscard]] std::vector<Polyline> outline(const Box& view) const;
   [[nodiscard]] Box bounds() const { return {centre - Vec2{radius, radius}, centre + Vec2{radius, radius}}; }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "udar/base/box.hpp"
@@ -15,6 +16,9 @@ struct PreparedHalfPlane {
 
   [[nodiscard]] Gap gap(Vec2 p) const { return {dot(normal, p - point), normal, 0}; }
   [[nodiscard]] bool holds(Vec2 p) const { return dot(normal, p - point) <= 0; }
+  [[nodiscard]] double inner_radius() const { return std::numeric_limits<double>::infinity(); }
+  /// What is outside before and after did not pass through: it has no other side.
+  [[nodiscard]] bool is_crossed(Vec2 /*from*/, Vec2 /*to*/) const { return false; }
   /// The stretch of the line in the view; none where it does not cross the view.
   [[nodiscard]] std::vector<Polyline> outline(const Box& view) const;
   /// The plane on the obstacle's side where the line runs along an axis, else everything.

@@ -66,6 +66,20 @@ Gap gap_outside(const PreparedPolygon& polygon, Vec2 p) {
   return out;
 }
 
+/// Where a concave function of one variable is largest; each look leaves two thirds of the range.
+template <class Function>
+double place_of_largest(double low, double high, Function function) {
+  for (int k = 0; k < 60; ++k) {  // to a part in 1e10
+    const double third = (high - low) / 3;
+    if (function(low + third) < function(high - third)) {
+      low += third;
+    } else {
+      high -= third;
+    }
+  }
+  return 0.5 * (low + high);
+}
+
 }  // namespace
 
 PreparedPolygon Polygon::prepared() const {
@@ -88,6 +102,34 @@ PreparedPolygon Rectangle::prepared() const {
     throw UserError(ExitCode::bad_case, "width and height of a rectangle must be above 0");
   }
   return with_normals({at, at + Vec2{size.x, 0}, at + size, at + Vec2{0, size.y}});
+}
+
+double PreparedPolygon::inner_radius() const {
+  // The depth, least of the distances from lines, is concave; so is the largest depth at the same x.
+  const auto depth = [this](double x, double y) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < points.size(); ++i) least = std::min(least, dot(normals[i], points[i] - Vec2{x, y}));
+    return least;
+  };
+  const Box box = bounds();
+  const auto deepest_y = [&](double x) {
+    return place_of_largest(box.low.y, box.high.y, [&](double y) { return depth(x, y); });
+  };
+  const double x = place_of_largest(box.low.x, box.high.x, [&](double at) { return depth(at, deepest_y(at)); });
+  return depth(x, deepest_y(x));
+}
+
+bool PreparedPolygon::is_crossed(Vec2 from, Vec2 to) const {
+  double enters = 0;  // part of the way
+  double leaves = 1;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double before = dot(normals[i], from - points[i]);
+    const double after = dot(normals[i], to - points[i]);
+    if (before >= 0 && after >= 0) return false;
+    if (before > 0) enters = std::max(enters, before / (before - after));
+    if (after > 0) leaves = std::min(leaves, before / (before - after));
+  }
+  return enters < leaves;
 }
 
 std::vector<Polyline> PreparedPolygon::outline(const Box& /*view*/) const {

@@ -25,6 +25,10 @@ struct PreparedPolygon {
     }
     return true;
   }
+  /// Radius of the largest disc in it, m: no point is deeper.
+  [[nodiscard]] double inner_radius() const;
+  /// Does the straight way from one place to another, both outside, lead through it?
+  [[nodiscard]] bool is_crossed(Vec2 from, Vec2 to) const;
   [[nodiscard]] std::vector<Polyline> outline(const Box& view) const;
   [[nodiscard]] Box bounds() const { return bounding_box(points); }
 };

@@ -14,6 +14,10 @@ std::vector<Polyline> outline(const PreparedShape& shape, const Box& view) {
   return std::visit([&](const auto& s) { return s.outline(view); }, shape);
 }
 
+double inner_radius(const PreparedShape& shape) {
+  return std::visit([](const auto& s) { return s.inner_radius(); }, shape);
+}
+
 Box bounds(const PreparedShape& shape) {
   return std::visit([](const auto& s) { return s.bounds(); }, shape);
 }

@@ -10,7 +10,8 @@
 namespace udar {
 
 /// Every shape of a rigid obstacle. A new one is added here and nowhere else: a struct with keyword, doc, parameters()
-/// and prepared(), whose result has gap(point), holds(point), outline(view) and bounds().
+/// and prepared(), whose result has gap(point), holds(point), inner_radius(), is_crossed(from, to), outline(view) and
+/// bounds().
 using Shape = std::variant<HalfPlane, Rectangle, Polygon, Circle>;
 
 /// A variant of the distinct types among those already in `Done` and `Rest`.
@@ -41,6 +42,9 @@ Gap gap(const PreparedShape& shape, Vec2 point);
 
 /// The boundary for drawing (m); what is endless is cut at `view`.
 std::vector<Polyline> outline(const PreparedShape& shape, const Box& view);
+
+/// The largest depth that a point in it can have, m; endless where the obstacle is.
+double inner_radius(const PreparedShape& shape);
 
 /// A box that holds the obstacle; endless where it is.
 Box bounds(const PreparedShape& shape);

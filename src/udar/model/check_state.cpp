@@ -66,6 +66,7 @@ void check_state(const Model& model, const State& state) {
   check_pairs(model, state);
   check_touches(model, state);
   for (const FrequencyBound& bound : state.frequency) need(bound.element < model.corners.size(), "stiffest element");
+  for (const Sinking& sunk : state.sunk) need(sunk.node < model.node_count, "deepest node in an obstacle");
   if (state.largest_penetration == 0) return;
   const DeepestTouch& deepest = state.deepest;
   const std::size_t partners = deepest.into_body != 0 ? model.bodies.size() : model.obstacles.size();

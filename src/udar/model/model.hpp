@@ -71,7 +71,8 @@ struct Obstacle {
   std::string name;
   Shape shape;
   PreparedShape prepared;
-  Box bounds;  ///< m, holds the obstacle where it stands at t = 0
+  Box bounds;               ///< m, holds the obstacle where it stands at t = 0
+  double inner_radius = 0;  ///< m, no point in it is deeper
   double friction = 0;
   Vec2 velocity{};  ///< m/s
   /// N/m, one for each of Model::contact_nodes.

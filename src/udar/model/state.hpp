@@ -67,6 +67,13 @@ struct DeepestTouch {
   std::uint64_t partner = 0;    ///< number of that body or obstacle
 };
 
+/// How deep a node has sunk into an obstacle, the deepest so far.
+struct Sinking {
+  double depth = 0;  ///< m; that it can be at most (Obstacle::inner_radius) where a node passed through in one step
+  double time = 0;   ///< s
+  std::uint64_t node = 0;
+};
+
 /// What limits the step.
 struct StepLimit {
   double size = 0;  ///< s, stable limit
@@ -145,6 +152,7 @@ struct State {
   std::vector<BodyTouch> touches;           ///< of bodies with each other, in the order of points, then of bodies
   std::vector<CornerTouch> corner_touches;  ///< the same of the corners of obstacles with bodies
   std::vector<ContactBook> obstacles;
+  std::vector<Sinking> sunk;         ///< one for each obstacle
   std::vector<PairBook> pairs;       ///< only those that have touched; in the order of first, then second body
   std::vector<Vec2> load_forces;     ///< N, load by load, node by node
   std::vector<Vec2> support_forces;  ///< N, support by support, node by node
@@ -205,6 +213,7 @@ void for_each_field(S& state, Visitor&& visit) {
   visit("touches", state.touches);
   visit("corner_touches", state.corner_touches);
   visit("obstacles", state.obstacles);
+  visit("sunk", state.sunk);
   visit("pairs", state.pairs);
   visit("load_forces", state.load_forces);
   visit("support_forces", state.support_forces);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "udar/output/observer.hpp"
+#include "udar/output/thin_obstacles.hpp"
 
 namespace udar {
 namespace {
@@ -177,7 +178,8 @@ Partner partner_of(const Model& model, const State& state, const PenetrationSumm
 void warn_of_penetration(const Model& model, const State& state, Summary& s) {
   s.warnings.clear();
   constexpr double too_deep = 0.05;
-  if (s.penetration_ratio <= too_deep) return;
+  // What failed has a message of its own, and another cure.
+  if (s.penetration_ratio <= too_deep || s.stop_reason == "numerical") return;
   const double excess = s.penetration_ratio / too_deep;
   const PenetrationSummary& deepest = s.deepest_penetration;
   const Partner partner = partner_of(model, state, deepest);
@@ -222,10 +224,21 @@ void judge_steps(const Model& model, const State& state, const Summary& s, Judge
   }
 }
 
+void judge_obstacles(const Model& model, const State& state, Judgement& judgement) {
+  for (std::string& reason : obstacles_sunk_through(model, state)) {
+    judgement.at_most(Judgement::doubtful);
+    judgement.reasons.push_back(std::move(reason));
+  }
+}
+
 }  // namespace
 
 std::string element_name(const Model& model, Index element) {
   return fmt::format("{} element {}", model.body_of_element(element).name, model.element_numbers[element]);
+}
+
+std::string node_name(const Model& model, Index node) {
+  return fmt::format("{} node {}", model.body_of_node(node).name, model.node_numbers[node]);
 }
 
 Summary summarise(const Model& model, const State& state) {
@@ -265,6 +278,7 @@ void judge(const Model& model, const State& state, Summary& s) {
   judge_stop(s, judgement);
   judge_books(model, state, s, judgement);
   warn_of_penetration(model, state, s);
+  judge_obstacles(model, state, judgement);
   judge_steps(model, state, s, judgement);
   s.verdict = judgement.word();
   s.reasons = std::move(judgement.reasons);

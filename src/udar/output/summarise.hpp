@@ -15,5 +15,7 @@ void judge(const Model& model, const State& state, Summary& summary);
 
 /// "beam element 1873", with the number the user's mesh gave it.
 std::string element_name(const Model& model, Index element);
+/// "beam node 96", the same way.
+std::string node_name(const Model& model, Index node);
 
 }  // namespace udar

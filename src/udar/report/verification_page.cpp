@@ -115,6 +115,10 @@ std::string markdown_of(const VerifiedProblem& problem) {
   return text + "\n";
 }
 
+std::string problem_words(const Verification& v) {
+  return v.problems.size() == 1 ? "1 problem" : fmt::format("{} problems", v.problems.size());
+}
+
 std::string markdown_contents(const Verification& v) {
   std::string text = "| problem | | checks that hold | time |\n|---|---|--:|--:|\n";
   for (const VerifiedProblem& problem : v.problems) {
@@ -225,12 +229,12 @@ std::string verification_markdown(const Verification& v) {
   std::string text = fmt::format(
       "# Verification\n\n<!-- Made by scripts/verification from a run of `udar verify --long`. -->\n\n{}\n\n**{} "
       "checks "
-      "hold**, of {} problems, in {} ({}).\n\nRun them: `udar verify`, one of them: `udar verify hertz`; what each "
+      "hold**, of {}, in {} ({}).\n\nRun them: `udar verify`, one of them: `udar verify hertz`; what each "
       "holds in "
       "detail: [results.md](results.md#a-verification). Orders that `udar converge` finds by itself have a page of "
       "their own: "
       "[convergence](../verification/convergence/README.md).\n\n{}",
-      explanation, count_words(count_of(v)), v.problems.size(), seconds_words(v.seconds), machine_words(v),
+      explanation, count_words(count_of(v)), problem_words(v), seconds_words(v.seconds), machine_words(v),
       markdown_contents(v));
   std::string topic;
   for (const VerifiedProblem& problem : v.problems) {
@@ -248,9 +252,9 @@ std::string verification_html(const Verification& v) {
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
       "content=\"width=device-width, initial-scale=1\">\n<title>Udar: {0} checks "
       "hold</title>\n<style>{1}</style>\n</head>\n"
-      "<body>\n<main>\n<header>\n<h1>Verification of Udar</h1>\n<p class=\"{2}\">{0} checks hold, of {3} problems, in "
+      "<body>\n<main>\n<header>\n<h1>Verification of Udar</h1>\n<p class=\"{2}\">{0} checks hold, of {3}, in "
       "{4}.</p>\n<p class=\"faint\">{5}</p>\n<p>{6}</p>\n{7}</header>\n",
-      count_words(count), style, count.held == count.all ? "good" : "bad", v.problems.size(), seconds_words(v.seconds),
+      count_words(count), style, count.held == count.all ? "good" : "bad", problem_words(v), seconds_words(v.seconds),
       escape_xml(machine_words(v)), escape_xml(explanation), html_contents(v));
   std::string topic;
   for (const VerifiedProblem& problem : v.problems) {
@@ -261,20 +265,25 @@ std::string verification_html(const Verification& v) {
   return text + "</main>\n</body>\n</html>\n";
 }
 
-void check_verification_folder(const fs::path& folder) {
+void check_verification_folder(const fs::path& folder, bool force) {
   std::error_code error;
   const fs::file_status status = fs::status(folder, error);
   if (!fs::exists(status)) return;
   if (!fs::is_directory(status)) {
     throw UserError(ExitCode::usage, fmt::format("`{}` is no folder", folder.string()), "choose another name");
   }
-  if (fs::is_empty(folder, error) || fs::exists(folder / VerificationFiles::data, error)) return;
+  if (fs::is_empty(folder, error)) return;
+  if (fs::exists(folder / VerificationFiles::data, error)) {
+    if (force) return;
+    throw UserError(ExitCode::usage, fmt::format("`{}` holds an earlier verification", folder.string()),
+                    "replace it with `--force`, or choose another folder with `--output`");
+  }
   throw UserError(ExitCode::usage, fmt::format("`{}` holds something else than a verification", folder.string()),
                   "choose another folder with `--output`");
 }
 
 void write_verification(const fs::path& folder, const Verification& v) {
-  check_verification_folder(folder);
+  check_verification_folder(folder, true);
   const fs::path pictures = folder / VerificationFiles::pictures;
   std::error_code error;
   fs::create_directories(pictures, error);

@@ -16,10 +16,12 @@ struct VerificationFiles {
   static constexpr const char* pictures = "pictures";       ///< folder of verification-PROBLEM-N.svg, for the Markdown
 };
 
-/// Refuses a folder that holds something else than an earlier verification. Throws UserError (usage).
-void check_verification_folder(const std::filesystem::path& folder);
+/// Refuses a folder that holds something else than an earlier verification, or one unless `force`. Throws UserError
+/// (usage).
+void check_verification_folder(const std::filesystem::path& folder, bool force);
 
-/// Writes all of them; files of an earlier verification are replaced. Throws UserError as above, and OutputError.
+/// Writes all of them; files of an earlier verification are replaced, other folders refused. Throws UserError as above,
+/// and OutputError.
 void write_verification(const std::filesystem::path& folder, const Verification& verification);
 
 /// The page, for a browser.

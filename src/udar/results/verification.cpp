@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
+#include <tuple>
 
 #include "udar/base/human_unit.hpp"
 #include "udar/results/json_members.hpp"
@@ -223,21 +226,33 @@ void scale_bounds(VerifiedProblem& problem, double factor) {
   }
 }
 
-void CheckCount::add(const VerifiedPart& part) {
-  for (const CheckRow& row : part.rows) held += row.holds ? 1 : 0;
-  all += part.rows.size();
-}
-
 CheckCount count_of(const VerifiedProblem& problem) {
+  using Key = std::tuple<CheckKind, std::string, std::string, double, double, double>;
   CheckCount count;
-  for (const VerifiedPart& part : problem.parts) count.add(part);
+  std::set<Key> earlier;
+  for (const VerifiedPart& part : problem.parts) {
+    std::set<Key> here;
+    for (const CheckRow& row : part.rows) {
+      if (row.kind != CheckKind::holds && std::isfinite(row.computed)) {
+        const auto number = [](double value) { return std::isnan(value) ? 0.0 : value; };
+        const Key key{row.kind, row.setting, row.what, row.computed, number(row.exact), number(row.bound)};
+        if (earlier.contains(key)) continue;
+        here.insert(key);
+      }
+      ++count.all;
+      count.held += row.holds ? 1 : 0;
+    }
+    earlier.merge(here);
+  }
   return count;
 }
 
 CheckCount count_of(const Verification& verification) {
   CheckCount count;
   for (const VerifiedProblem& problem : verification.problems) {
-    for (const VerifiedPart& part : problem.parts) count.add(part);
+    const CheckCount of_problem = count_of(problem);
+    count.held += of_problem.held;
+    count.all += of_problem.all;
   }
   return count;
 }

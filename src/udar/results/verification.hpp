@@ -114,11 +114,11 @@ bool is_held(const CheckRow& row);
 /// Multiplies the bounds of errors (upper ones: `relative`, `absolute`, `at_most`, `below`) and judges again.
 void scale_bounds(VerifiedProblem& problem, double factor);
 
-/// Checks and how many of them hold.
+/// Checks and how many of them hold. A long part that begins with the settings of a quick one repeats its numbers: what
+/// another part of the problem has to the same bits counts once.
 struct CheckCount {
   std::size_t held = 0;
   std::size_t all = 0;
-  void add(const VerifiedPart& part);
 };
 CheckCount count_of(const VerifiedProblem& problem);
 CheckCount count_of(const Verification& verification);

@@ -52,12 +52,15 @@ RunFolder open_folder(const Case& input, const Model& model, const State& state,
   return folder;
 }
 
-/// The state at the end; after a numerical failure with the element that limited the step, most often the culprit.
+/// The state at the end; after a numerical failure, with the place where it began.
 std::string final_picture(const Model& model, const State& state, const RunOptions& options, const Stop& stop) {
   Picture picture = state_picture(model, state, options.case_name);
-  if (stop.reason == "numerical") {
-    const Index element = state.clock.limit.element;
-    picture.markers.push_back({centroid(model, state, element), "limits the step: " + element_name(model, element)});
+  if (stop.culprit.kind == Culprit::element) {
+    const Index element = stop.culprit.number;
+    picture.markers.push_back({centroid(model, state, element), "failed: " + element_name(model, element)});
+  } else if (stop.culprit.kind == Culprit::node) {
+    const Index node = stop.culprit.number;
+    picture.markers.push_back({place(state, node), "failed: " + node_name(model, node)});
   }
   return to_svg(picture);
 }

@@ -58,6 +58,7 @@ void Simulation::compute(const RunOptions& options, Workspace& work, Stop& stop,
       step(model_, state_, work);
     } catch (const NumericalError& failure) {
       state_ = last_good.before(state_.clock.step, work);
+      stop.culprit = failure.culprit;
       return stop.because("numerical", failure.what());
     }
     look();

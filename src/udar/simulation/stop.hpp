@@ -11,6 +11,7 @@ namespace udar {
 struct Stop {
   std::string reason = "end_time";
   std::vector<std::string> why;
+  Culprit culprit;  ///< of a numerical failure
 
   void because(const char* new_reason, const std::string& text) {
     reason = new_reason;

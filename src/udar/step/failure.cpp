@@ -39,18 +39,32 @@ std::string node_text(const Model& model, Index node) {
 
 bool is_finite(Vec2 v) { return std::isfinite(v.x) && std::isfinite(v.y); }
 
+Culprit element_of(Index number) { return {Culprit::element, number}; }
+Culprit node_of(Index number) { return {Culprit::node, number}; }
+
+/// Throws with what is most likely and what helps. A step that the case keeps above the stable limit is to blame for
+/// whatever happens.
+[[noreturn]] void fail(const Model& model, const State& state, Culprit culprit, const std::string& what,
+                       std::string cause, std::string cure) {
+  const double excess = state.clock.largest_excess;
+  if (model.run.time_step && model.run.when_unstable == WhenUnstable::carry_on && excess > 1) {
+    cause = fmt::format(
+        "the fixed step was up to {:.3g} times the stable limit, which when_unstable = \"continue\" lets it", excess);
+    cure = "time_step = \"auto\", or when_unstable = \"shorten\"";
+  }
+  throw NumericalError(fmt::format("{}.\n  Likely cause: {}.\n  Cure: {}.", what, cause, cure), culprit);
+}
+
 /// Throws where one of `begin` .. `end` - 1 is bad; `describe` says what is wrong with it.
 template <class Bad, class Describe>
-void refuse_any(Index begin, Index end, const Clock& clock, Bad&& bad, Describe&& describe) {
+void refuse_any(const Model& model, const State& state, Culprit::Kind kind, Index begin, Index end, Bad&& bad,
+                Describe&& describe) {
   for (Index i = begin; i < end; ++i) {
     if (!bad(i)) continue;
-    throw NumericalError(fmt::format(
-        "{} {}.\n"
-        "  Likely cause: the motion grew without bound, since the step is above the stable limit or a value of the "
-        "case "
-        "is far out (its unit?).\n"
-        "  Cure: time_step = \"auto\" with a smaller step_safety, 0.5; udar check shows the case in other words.",
-        describe(i), when(clock)));
+    fail(model, state, {kind, i}, fmt::format("{} {}", describe(i), when(state.clock)),
+         "the motion grew without bound, since the step is above the stable limit or a value of the case is far out "
+         "(its unit?)",
+         "time_step = \"auto\" with a smaller step_safety, 0.5; udar check shows the case in other words");
   }
 }
 
@@ -63,34 +77,37 @@ void refuse_not_finite(const Model& model, const State& state) {
                        model.bodies[model.rigid_bodies[k].body].name, what);
   };
   const auto rigid_count = static_cast<Index>(state.rigid.size());
-  const Clock& clock = state.clock;
-  refuse_any(
-      0, rigid_count, clock,
+  const auto refuse = [&](Culprit::Kind kind, Index begin, Index end, auto bad, auto describe) {
+    refuse_any(model, state, kind, begin, end, bad, describe);
+  };
+  refuse(
+      Culprit::unknown, 0, rigid_count,
       [&](Index k) { return !is_finite(state.rigid[k].place) || !std::isfinite(state.rigid[k].angle); },
       [&](Index k) { return rigid_text(k, "place"); });
-  refuse_any(
-      0, model.node_count, clock, [&](Index i) { return !is_finite(place(state, i)); },
+  refuse(
+      Culprit::node, 0, model.node_count, [&](Index i) { return !is_finite(place(state, i)); },
       [&](Index i) { return node_text(model, i) + " has a place or velocity that is not a number"; });
   for (const Body& body : model.bodies) {
-    refuse_any(
-        body.element_begin, body.element_end, clock,
+    refuse(
+        Culprit::element, body.element_begin, body.element_end,
         [&](Index e) {
           return !std::isfinite(state.stress_xx[e]) || !std::isfinite(state.stress_yy[e]) ||
                  !std::isfinite(state.stress_xy[e]) || !std::isfinite(state.stress_zz[e]);
         },
         [&](Index e) { return element_text(model, state, e) + " has a stress that is not a number"; });
-    refuse_any(
-        body.element_begin, body.element_end, clock, [&](Index e) { return !std::isfinite(state.plastic_strain[e]); },
+    refuse(
+        Culprit::element, body.element_begin, body.element_end,
+        [&](Index e) { return !std::isfinite(state.plastic_strain[e]); },
         [&](Index e) { return element_text(model, state, e) + " has a plastic strain that is not a number"; });
   }
-  refuse_any(
-      0, model.node_count, clock,
+  refuse(
+      Culprit::node, 0, model.node_count,
       [&](Index i) {
         return !is_finite({state.nodes[i].vx, state.nodes[i].vy});
       },
       [&](Index i) { return node_text(model, i) + " has a velocity that is not a number"; });
-  refuse_any(
-      0, rigid_count, clock,
+  refuse(
+      Culprit::unknown, 0, rigid_count,
       [&](Index k) {
         return !is_finite(state.rigid[k].velocity.linear) || !std::isfinite(state.rigid[k].velocity.angular);
       },
@@ -127,13 +144,11 @@ void refuse_inverted(const Model& model, const State& state, const Workspace& wo
   // a stress that is none.
   const FlatElement flattest = flattest_element(model, state, work);
   if (!std::isfinite(flattest.twice_area) || flattest.twice_area > 0) refuse_not_finite(model, state);
-  throw NumericalError(fmt::format(
-      "{} turned inside out {}.\n"
-      "  Likely cause: a corner of an obstacle or a load crushes single elements, or the step was above the stable "
-      "limit.\n"
-      "  Cure: a coarser mesh there or a rounder obstacle; softer contact springs; time_step = \"auto\" with a smaller "
-      "step_safety, 0.5.",
-      element_text(model, state, flattest.element), when(state.clock)));
+  fail(model, state, element_of(flattest.element),
+       fmt::format("{} turned inside out {}", element_text(model, state, flattest.element), when(state.clock)),
+       "a corner of an obstacle or a load crushes single elements, or the step was above the stable limit",
+       "a coarser mesh there or a rounder obstacle; softer contact springs; time_step = \"auto\" with a smaller "
+       "step_safety, 0.5");
 }
 
 void fail_not_finite(const Model& model, const State& state) {
@@ -143,43 +158,42 @@ void fail_not_finite(const Model& model, const State& state) {
   for (Index i = 1; i < model.node_count; ++i) {
     if (speed(i) > speed(fastest)) fastest = i;
   }
-  throw NumericalError(
-      fmt::format("the energy is not a number any more {}; {} moves at {:.3g} m/s.\n"
-                  "  Likely cause: a velocity, load or stiffness of the case is far out (its unit?).\n"
-                  "  Cure: udar check shows the case in other words.",
-                  when(state.clock), node_text(model, fastest), speed(fastest)));
+  fail(model, state, node_of(fastest),
+       fmt::format("the energy is not a number any more {}; {} moves at {:.3g} m/s", when(state.clock),
+                   node_text(model, fastest), speed(fastest)),
+       "a velocity, load or stiffness of the case is far out (its unit?)", "udar check shows the case in other words");
 }
 
 void fail_unstable(const Model& model, const State& state) {
   const Clock& clock = state.clock;
-  throw NumericalError(fmt::format(
-      "the stable limit fell to {:.4g} s, below the fixed step {:.4g} s, {}: {}.\n"
-      "  Likely cause: the element is being crushed.\n"
-      "  Cure: time_step = \"auto\", or when_unstable = \"shorten\".",
-      clock.limit.size, *model.run.time_step, when(clock), element_text(model, state, clock.limit.element)));
+  fail(model, state, element_of(clock.limit.element),
+       fmt::format("the stable limit fell to {:.4g} s, below the fixed step {:.4g} s, {}: {}", clock.limit.size,
+                   *model.run.time_step, when(clock), element_text(model, state, clock.limit.element)),
+       "the element is being crushed", "time_step = \"auto\", or when_unstable = \"shorten\"");
 }
 
 void fail_collapsing_step(const Model& model, const State& state) {
   refuse_not_finite(model, state);
-  throw NumericalError(
-      fmt::format("the stable limit collapsed to {:.3g} s {}: {}.\n"
-                  "  Likely cause: the element is crushed flat.\n"
-                  "  Cure: a coarser mesh there, or a rounder obstacle; softer contact springs.",
-                  state.clock.limit.size, when(state.clock), element_text(model, state, state.clock.limit.element)));
+  const StepLimit& limit = state.clock.limit;
+  fail(model, state, element_of(limit.element),
+       fmt::format("the stable limit collapsed to {:.3g} s {}: {}", limit.size, when(state.clock),
+                   element_text(model, state, limit.element)),
+       "the element is crushed flat", "a coarser mesh there, or a rounder obstacle; softer contact springs");
 }
 
 void fail_energy(const Model& model, const State& state) {
   const Ledger& ledger = state.ledger;
-  throw NumericalError(fmt::format(
-      "the energy books are {:.3g} % apart {}; the case allows {:.3g} %.\n"
-      "  Kinetic {:.6g} J, elastic {:.6g} J, plastic {:.6g} J, contact {:.6g} J, friction {:.6g} J; started with "
-      "{:.6g} J, "
-      "work from outside {:.6g} J. The step is set by {}.\n"
-      "  Likely cause: the step is too large for crushed elements or for the contact springs.\n"
-      "  Cure: time_step = \"auto\" with a smaller step_safety, 0.5, or softer contact springs.",
-      100 * ledger.energy_error(), when(state.clock), 100 * model.run.stop_at_energy_error, ledger.kinetic_energy,
-      ledger.elastic_energy(), ledger.plastic_work.value(), ledger.contact_energy, ledger.friction_work.value(),
-      ledger.start_energy, ledger.external_work(), element_text(model, state, state.clock.limit.element)));
+  const Index element = state.clock.limit.element;
+  fail(model, state, element_of(element),
+       fmt::format("the energy books are {:.3g} % apart {}; the case allows {:.3g} %.\n"
+                   "  Kinetic {:.6g} J, elastic {:.6g} J, plastic {:.6g} J, contact {:.6g} J, friction {:.6g} J; "
+                   "started with {:.6g} J, work from outside {:.6g} J. The step is set by {}",
+                   100 * ledger.energy_error(), when(state.clock), 100 * model.run.stop_at_energy_error,
+                   ledger.kinetic_energy, ledger.elastic_energy(), ledger.plastic_work.value(), ledger.contact_energy,
+                   ledger.friction_work.value(), ledger.start_energy, ledger.external_work(),
+                   element_text(model, state, element)),
+       "the step is too large for crushed elements or for the contact springs",
+       "time_step = \"auto\" with a smaller step_safety, 0.5, or softer contact springs");
 }
 
 }  // namespace udar

@@ -29,6 +29,7 @@ State rest_state(const Model& model) {
   state.frequency.resize(model.element_blocks.size());
   state.contacts.resize(model.obstacles.size() * model.contact_nodes.size());
   state.obstacles.resize(model.obstacles.size());
+  state.sunk.resize(model.obstacles.size());
   std::size_t loaded = 0;
   for (const Load& load : model.loads) loaded += load.nodes.size();
   state.load_forces.resize(loaded);

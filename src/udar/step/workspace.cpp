@@ -30,6 +30,7 @@ ContactSums& ContactSums::operator+=(const ContactSums& other) {
   normal_energy += other.normal_energy;
   tangential_energy += other.tangential_energy;
   largest_penetration = std::max(largest_penetration, other.largest_penetration);
+  sink(other.depth, other.deepest);
   losses.friction += other.losses.friction;
   losses.dropped += other.losses.dropped;
   return *this;

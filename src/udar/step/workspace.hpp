@@ -19,8 +19,15 @@ struct ContactSums {
   double normal_energy = 0;        ///< J
   double tangential_energy = 0;    ///< J
   double largest_penetration = 0;  ///< over the length of the boundary edges at the node
+  double depth = 0;                ///< m, the largest
+  Index deepest = 0;               ///< node
   SpringLosses losses;
 
+  void sink(double how_deep, Index node) {
+    if (how_deep <= depth) return;
+    depth = how_deep;
+    deepest = node;
+  }
   ContactSums& operator+=(const ContactSums& other);
 };
 

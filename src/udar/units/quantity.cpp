@@ -175,9 +175,19 @@ class UnitReader {
       error.cure = "known are SI units with prefixes and kgf, tf, bar, atm, psi, lbf, in, ft, deg, rpm, min, h, t";
     } else {
       const std::string corrected = std::string(text_.substr(0, begin)) + near + std::string(text_.substr(at_));
-      error.cure = fmt::format("did you mean \"{} {}\"?", number_, corrected);
+      error.cure = fmt::format("did you mean {}?", whole_or_name(corrected, near));
     }
     return tl::unexpected(error);
+  }
+
+  /// The quantity with one unit put right, and others that are unknown; only that unit where the rest is no unit.
+  std::string whole_or_name(const std::string& corrected, const std::string& name) const {
+    const Expected<Unit> again = UnitReader(number_, corrected).read();
+    if (again) return fmt::format("\"{} {}\"", number_, corrected);
+    const std::string& cure = again.error().cure;
+    constexpr std::string_view before = "did you mean \"";
+    if (!cure.starts_with(before)) return fmt::format("`{}`", name);
+    return cure.substr(before.size() - 1, cure.size() - before.size());
   }
 
   /// The same letters in other capitals ("mpa") come first, then in another order ("kfg"), then the nearest spelling.

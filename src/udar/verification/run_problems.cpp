@@ -14,12 +14,15 @@ namespace {
 void check_names(const std::vector<Problem>& all, const std::vector<std::string>& names) {
   std::vector<std::string> known;
   for (const Problem& problem : all) known.push_back(problem.id);
+  std::vector<Diagnostic> mistakes;
   for (const std::string& name : names) {
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
     const std::string near = nearest_word(name, known);
-    throw UserError(ExitCode::usage, fmt::format("there is no problem `{}`", name),
-                    near.empty() ? "`udar verify --list` shows all" : fmt::format("did you mean `{}`?", near));
+    Diagnostic& mistake = mistakes.emplace_back();
+    mistake.message = fmt::format("there is no problem `{}`", name);
+    mistake.cure = near.empty() ? "`udar verify --list` shows all" : fmt::format("did you mean `{}`?", near);
   }
+  if (!mistakes.empty()) throw UserError(ExitCode::usage, std::move(mistakes));
 }
 
 }  // namespace
