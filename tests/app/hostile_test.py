@@ -15,7 +15,7 @@ import tempfile
 import threading
 import unittest
 
-from hostile_files import CASE, CASES, DIFF, FILES, FRAME, PICTURE, REPORT
+from hostile_files import CASE, CASES, DIFF, FILES, FRAME, PICTURE, REPORT, SHORT_OF_MEMORY
 
 PROGRAM = ""
 LIMITED = True  # not under the address sanitizer, which takes terabytes of addresses
@@ -60,6 +60,8 @@ class Hostile(unittest.TestCase):
 
     def test_case_files(self):
         for name, (text, words) in CASES.items():
+            if words == SHORT_OF_MEMORY and not LIMITED:
+                continue  # what is refused depends on the limit; a large machine would take them on
             with self.subTest(name):
                 (self.folder / "bad.toml").write_bytes(text.encode() if isinstance(text, str) else text)
                 before = set(self.folder.iterdir())
