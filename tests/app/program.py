@@ -2,11 +2,14 @@
 
 import subprocess
 
+# For a program that hangs; one built for debugging may take a minute over a study.
+SECONDS = 300
+
 
 def run_program(test, program, words, code, **options):
     """Runs the program in the folder of a test, which asks for this exit code and no internal error; returns standard
     output and standard error."""
-    done = subprocess.run([program, *map(str, words)], cwd=test.folder, capture_output=True, timeout=60, check=False,
+    done = subprocess.run([program, *map(str, words)], cwd=test.folder, capture_output=True, timeout=SECONDS, check=False,
                           **options)
     out, err = done.stdout.decode(), done.stderr.decode()
     test.assertEqual(done.returncode, code, out + err)

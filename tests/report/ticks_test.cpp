@@ -95,16 +95,18 @@ TEST_CASE("ticks of a logarithmic axis") {
 TEST_CASE("values that differ by rounding, or are as large and small as numbers get, have a few ticks") {
   const double tiny = 5e-324;
   const double huge = 1.7e308;
-  for (const auto& [low, high] : std::vector<std::pair<double, double>>{{1, std::nextafter(1, 2)},
-                                                                        {-3.2e7, std::nextafter(-3.2e7, 0)},
-                                                                        {1e22, 1e22 + 4e6},
-                                                                        {0, tiny},
-                                                                        {tiny, tiny},
-                                                                        {-huge, huge},
-                                                                        {huge, huge},
-                                                                        {0, huge},
-                                                                        {-tiny, tiny},
-                                                                        {2.5, 2.5}}) {
+  for (const auto& range : std::vector<std::pair<double, double>>{{1, std::nextafter(1, 2)},
+                                                                  {-3.2e7, std::nextafter(-3.2e7, 0)},
+                                                                  {1e22, 1e22 + 4e6},
+                                                                  {0, tiny},
+                                                                  {tiny, tiny},
+                                                                  {-huge, huge},
+                                                                  {huge, huge},
+                                                                  {0, huge},
+                                                                  {-tiny, tiny},
+                                                                  {2.5, 2.5}}) {
+    const double low = range.first;
+    const double high = range.second;
     INFO(low, " to ", high);
     for (const Ticks& ticks : {ticks_over(low, high, 7), ticks_within(low, high, 7), log_ticks_over(low, high)}) {
       CHECK(!ticks.values.empty());
