@@ -465,8 +465,17 @@ class Report(Program):
 
     def test_a_full_disk_leaves_no_half_page(self):
         self.udar("report", "runs/block", "--template", "page.html", code=6,
-                  preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (9000, 9000)))
+                  preexec_fn=small_files(9000))
         self.assertEqual(self.names("runs/block"), WHOLE - {"report.html"})
+
+
+def small_files(most):
+    """For preexec_fn: no file may become larger than so many bytes. What a program writes at its end of the lines that
+    ran (scripts/coverage) would be cut off, too, and goes elsewhere."""
+    def limit():
+        os.environ["GCOV_PREFIX"] = os.path.join(tempfile.gettempdir(), "udar-gcov")
+        resource.setrlimit(resource.RLIMIT_FSIZE, (most, most))
+    return limit
 
 
 class Signals(Program):
@@ -505,7 +514,7 @@ class Disks(Program):
         # Every step writes rows, and soon a history is too long.
         few = 60000
         out, err = self.udar("run", "block.toml", "--set", "run.end_time=10 ms", "--set", "output.histories_every=1 ns",
-                             code=6, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (few, few)))
+                             code=6, preexec_fn=small_files(few))
         self.assertTrue(err.startswith("error: cannot write runs/block/histories/"), err)
         self.assertIn("ulimit -f", err)
         self.assertIn("verdict: bad", out)
@@ -518,7 +527,7 @@ class Disks(Program):
         # Frames in every step, and soon their index is too long. It is written while the run goes on.
         few = 60000
         out, err = self.udar("run", "block.toml", "--set", "run.end_time=100 ms", "--set", "output.fields_every=1 ns",
-                             code=6, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (few, few)))
+                             code=6, preexec_fn=small_files(few))
         self.assertIn("error: cannot write runs/block/fields.pvd", err)
         self.assertIn("ulimit -f", err)
         self.assertIn("verdict: bad", out)
@@ -532,7 +541,7 @@ class Disks(Program):
 
     def test_a_disk_that_takes_nothing(self):
         _, err = self.udar("run", "block.toml", code=6,
-                           preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0)))
+                           preexec_fn=small_files(0))
         self.assertTrue(err.startswith("error: cannot write"), err)
 
     @unittest.skipIf(os.geteuid() == 0, "root may write everywhere")
