@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <utility>
 
 #include "udar/base/archive.hpp"
 
@@ -24,8 +25,8 @@ void take(HistorySummary& extremes, double value, double time) {
 
 }  // namespace
 
-HistoryRecorder::HistoryRecorder(const Model& model, const std::optional<std::filesystem::path>& folder)
-    : folder_(folder), samples_(model.output.histories_every) {
+HistoryRecorder::HistoryRecorder(const Model& model, std::optional<std::filesystem::path> folder)
+    : folder_(std::move(folder)), samples_(model.output.histories_every) {
   for (Observer& observer : make_observers(model)) {
     Watched w{std::move(observer), {}, {}, {}};
     w.values.resize(w.observer.columns.size());

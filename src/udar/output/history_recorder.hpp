@@ -18,7 +18,7 @@ class HistoryRecorder {
  public:
   /// Histories go to `folder`/<observer>.csv; with no folder only extremes are kept. No file is touched before `begin`
   /// or `carry`.
-  HistoryRecorder(const Model& model, const std::optional<std::filesystem::path>& folder);
+  HistoryRecorder(const Model& model, std::optional<std::filesystem::path> folder);
 
   /// Begins all files. Throws OutputError, as everything that writes.
   void begin();

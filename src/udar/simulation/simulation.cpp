@@ -26,7 +26,7 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
 
 int threads_for(std::size_t elements) {
   constexpr std::size_t elements_per_thread = 4000;
-  const std::size_t most = static_cast<std::size_t>(available_threads());
+  const auto most = static_cast<std::size_t>(available_threads());
   return static_cast<int>(std::clamp<std::size_t>(elements / elements_per_thread, 1, most));
 }
 
