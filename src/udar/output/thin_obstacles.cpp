@@ -52,8 +52,7 @@ std::vector<Diagnostic> obstacles_too_thin(const Model& model, const State& stat
     Diagnostic warning;
     warning.message = fmt::format(
         "body `{}` is too fast for obstacle `{}`: with {:.4g} m/s its nodes sink by {:.2g} m or more in a step or "
-        "before "
-        "a spring stops them, and no point of the obstacle is deeper than {:.3g} m",
+        "before a spring stops them, and no point of the obstacle is deeper than {:.3g} m",
         model.body_of_node(node).name, obstacle.name, length(velocity(state, node) - obstacle.velocity), deepest,
         obstacle.inner_radius);
     // The inner radius of a plate is half of its thickness.
