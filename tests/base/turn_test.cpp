@@ -45,6 +45,14 @@ TEST_CASE("no turn is exact") {
   CHECK(turn_by(0).sin == 0);
 }
 
+TEST_CASE("a turn by what is no number is none, by any other no undefined behaviour") {
+  for (const double angle : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    CHECK(std::isnan(turn_by(angle).cos));
+    CHECK(std::isnan(turn_by(angle).sin));
+  }
+  turn_by(1e20);  // more quarters than an integer counts
+}
+
 TEST_CASE("a turn keeps length and sense") {
   const Vec2 a{3, 4};
   CHECK(length(turn_by(1.2345) * a) == doctest::Approx(5).epsilon(1e-15));

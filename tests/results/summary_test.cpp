@@ -1,9 +1,11 @@
 #include "udar/results/summary.hpp"
 
 #include <doctest/doctest.h>
+#include <fmt/core.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "tests/results/scratch.hpp"
 
@@ -149,5 +151,24 @@ TEST_CASE("what is not a summary is refused") {
         "{\"schema\": 1, \"histories\": {\"a\": 3}}", "{\"schema\": 1, \"momentum\": {\"start\": [1]}}"}) {
     CAPTURE(text);
     CHECK_THROWS_AS(summary_from_json(text), OutputError);
+  }
+}
+
+TEST_CASE("a count that is not whole or that no integer holds is refused, with its place") {
+  const std::string text = to_json(example());
+  const std::string steps = fmt::format("\"steps\": {}", example().steps);
+  const std::size_t at = text.find(steps);
+  REQUIRE(at != std::string::npos);
+  for (const char* value : {"1e75", "2.5", "-1e300", "18446744073709551615", "1e999", "\"3\"", "null"}) {
+    CAPTURE(value);
+    std::string changed = text;
+    changed.replace(at, steps.size(), fmt::format("\"steps\": {}", value));
+    std::string said;
+    try {
+      summary_from_json(changed);
+    } catch (const OutputError& error) {
+      said = error.what();
+    }
+    CHECK(said.find(std::string(value) == "1e999" ? "not a summary" : "steps: ") != std::string::npos);
   }
 }

@@ -29,16 +29,11 @@ Turn turn_by(double angle) {
   const double r = ((angle - quadrant * half_pi_1) - quadrant * half_pi_2) - quadrant * half_pi_3;
   const double s = sin_series(r);
   const double c = cos_series(r);
-  switch (static_cast<long long>(quadrant) & 3) {
-    case 0:
-      return {c, s};
-    case 1:
-      return {-s, c};
-    case 2:
-      return {-c, -s};
-    default:
-      return {s, -c};
-  }
+  const double quarter = quadrant - 4 * std::floor(quadrant / 4);  // 0 to 3; exact, as all of it is whole
+  if (quarter == 0) return {c, s};
+  if (quarter == 1) return {-s, c};
+  if (quarter == 2) return {-c, -s};
+  return {s, -c};  // also of what is no number, which stays none
 }
 
 }  // namespace udar

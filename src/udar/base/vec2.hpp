@@ -39,7 +39,7 @@ struct Turn {
 constexpr Vec2 operator*(Turn q, Vec2 a) { return {q.cos * a.x - q.sin * a.y, q.sin * a.x + q.cos * a.y}; }
 
 /// The turn by `angle` (rad) from additions and multiplications only: libm picks its sin and cos by processor, and the
-/// last bit then differs from machine to machine. Error below 4e-16 for |angle| < 1e5.
+/// last bit then differs from machine to machine. Error below 4e-16 for |angle| < 1e5. Of what is no number: no number.
 Turn turn_by(double angle);
 
 }  // namespace udar

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <fmt/core.h>
+
 #include <concepts>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "udar/base/error.hpp"
@@ -58,7 +62,9 @@ inline void check_json(bool right) {
   if (!right) throw OutputError("a list or a table is missing");
 }
 
-/// Missing and unknown names are passed over. Throws OutputError and Json::exception where a value is of another kind.
+/// Missing and unknown names are passed over. Throws OutputError, which names the place, where a value of a struct is
+/// of another kind or no number that its member holds; Json::exception where what is read is no struct and of another
+/// kind.
 inline void read_json(const Json& json, double& value) {
   value = json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
@@ -67,8 +73,16 @@ inline void read_json(const Json& json, Vec2& value) {
   read_json(json.at(1), value.y);
 }
 template <class T>
-requires std::integral<T> || std::same_as<T, std::string>
+requires std::same_as<T, bool> || std::same_as<T, std::string>
 void read_json(const Json& json, T& value) { value = json.get<T>(); }
+template <std::integral T>
+requires(!std::same_as<T, bool>) void read_json(const Json& json, T& value) {
+  // Asked for an integer, the library turns any number into one; of 1e75 that is undefined.
+  const bool fits = json.is_number_unsigned() ? std::in_range<T>(json.get<std::uint64_t>())
+                                              : json.is_number_integer() && std::in_range<T>(json.get<std::int64_t>());
+  if (!fits) throw OutputError("a number is not whole or too large");
+  value = json.get<T>();
+}
 template <class T>
 void read_json(const Json& json, std::vector<T>& values);
 template <class T>
@@ -80,7 +94,13 @@ requires requires(T& s) {
 void read_json(const Json& json, T& value) {
   check_json(json.is_object());
   for_each_member(value, [&](const char* name, auto& member) {
-    if (json.contains(name)) read_json(json.at(name), member);
+    try {
+      if (json.contains(name)) read_json(json.at(name), member);
+    } catch (const OutputError& error) {
+      throw OutputError(fmt::format("{}: {}", name, error.what()));
+    } catch (const Json::exception& error) {
+      throw OutputError(fmt::format("{}: {}", name, error.what()));
+    }
   });
 }
 template <class T>
