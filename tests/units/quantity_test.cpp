@@ -154,6 +154,10 @@ TEST_CASE("what is no quantity is refused, and the reason said") {
     CHECK_FALSE(needed.error().cure.empty());
   }
   CHECK(has(complaint("1,5 m", dimension::length), "did you mean \"1.5 m\"?"));
+  // What would be no quantity with a point either, or holds what a terminal obeys, is not proposed.
+  CHECK(has(complaint("2e6,0 m", dimension::length), "write it like"));
+  CHECK(has(complaint("1,5\tm _{\tm", dimension::length), "write it like"));
+  CHECK(has(complaint("1,5,5 m", dimension::length), "write it like"));
   CHECK(has(complaint("3 kg/m s", dimension::length), "ambiguous unit"));
   CHECK(has(complaint(std::string(101, '1'), dimension::length), "101 characters are too many"));
   CHECK(has(complaint("1 " + std::string(90, '('), dimension::length), "the unit ends too early"));

@@ -246,8 +246,9 @@ Expected<Split> split(std::string_view text) {
   const std::string_view number = whole.substr(0, length);
   const std::string_view rest = trimmed(whole.substr(length));
   if (rest.size() > 1 && rest[0] == ',' && is_digit(rest[1])) {
-    return tl::unexpected(UnitError{"unreadable value", "a comma is not part of a number",
-                                    fmt::format("did you mean \"{}.{}\"?", number, rest.substr(1))});
+    const std::string corrected = fmt::format("{}.{}", number, rest.substr(1));
+    const std::string cure = parse_quantity(corrected) ? fmt::format("did you mean \"{}\"?", corrected) : "";
+    return tl::unexpected(UnitError{"unreadable value", "a comma is not part of a number", cure});
   }
   return Split{std::string(number), std::string(rest)};
 }
