@@ -2,8 +2,10 @@
 
 #include <cmath>
 
-#if defined(__SSE2__)
+#if defined(__AVX2__)
 #include <immintrin.h>
+#elif defined(__SSE2__)
+#include <emmintrin.h>  // most units include a law, and that one takes a third of a second
 #endif
 
 // The instruction set that the including unit is compiled for. It names a namespace, so that functions compiled for one
