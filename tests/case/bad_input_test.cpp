@@ -416,8 +416,7 @@ TEST_CASE("thousands of mistakes fit on a screen or two") {
 
 TEST_CASE("no prefix of a case and no changed byte of it does harm") {
 #if defined(UDAR_SANITIZED)
-  constexpr std::size_t step =
-      5;  // ten times as slow; each byte and each place still has its turn, and there are the fuzzers
+  constexpr std::size_t step = 5;  // slow there; every byte and every place still have their turn
 #else
   constexpr std::size_t step = 1;
 #endif
