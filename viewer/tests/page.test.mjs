@@ -211,8 +211,8 @@ test("saves the picture and a film", async () => {
   assert.ok(bytes.readUInt32BE(16) >= 500 && bytes.readUInt32BE(20) >= 300, "its size");
   assert.ok(bytes.length > 10_000);
 
-  await page.selectOption("#rate", "60");
-  const [film] = await Promise.all([page.waitForEvent("download", { timeout: 120_000 }), page.click("#save-film")]);
+  await page.selectOption("#rate", "60"); // drawn picture by picture: a busy machine takes its time
+  const [film] = await Promise.all([page.waitForEvent("download", { timeout: 600_000 }), page.click("#save-film")]);
   const film_file = join(scratch, "saved.webm");
   await film.saveAs(film_file);
   const film_bytes = readFileSync(film_file);
