@@ -16,6 +16,7 @@ import threading
 import unittest
 
 from hostile_files import CASE, CASES, DIFF, FILES, FRAME, PICTURE, REPORT, SHORT_OF_MEMORY
+from program import has_address_sanitizer
 
 PROGRAM = ""
 LIMITED = True  # not under the address sanitizer, which takes terabytes of addresses
@@ -126,7 +127,7 @@ class Hostile(unittest.TestCase):
 
 if __name__ == "__main__":
     PROGRAM = str(pathlib.Path(sys.argv[1]).resolve())
-    LIMITED = "libasan" not in subprocess.run(["ldd", PROGRAM], capture_output=True, text=True, check=True).stdout
+    LIMITED = not has_address_sanitizer(PROGRAM)
     if not LIMITED:
         SECONDS = 60
     unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

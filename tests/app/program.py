@@ -1,5 +1,6 @@
 """What the tests of the program share."""
 
+import pathlib
 import subprocess
 
 # For a program that hangs; one built for debugging may take a minute over a study.
@@ -15,3 +16,8 @@ def run_program(test, program, words, code, **options):
     test.assertEqual(done.returncode, code, out + err)
     test.assertNotIn("internal error", err)
     return out, err
+
+
+def has_address_sanitizer(program):
+    """Whether it was built with AddressSanitizer, which takes terabytes of addresses and memory of its own."""
+    return b"__asan_init" in pathlib.Path(program).read_bytes()
