@@ -39,7 +39,7 @@ void attempt(Read read) {
   }
 }
 
-/// Carries an assignment out; with one of 32 the case is read, which takes a hundred times as long.
+/// Carries an assignment out; with one of 32 the case is read, which takes much longer.
 void assign_value(const std::string& value) {
   static const Document plain = *parse_document(example_case(), "fuzz.toml");
   Document document = plain;
